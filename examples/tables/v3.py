@@ -1,0 +1,32 @@
+"""Tables, version 3: the legs may stand on stretchers, joined like an H."""
+
+from typing import Annotated, Literal
+
+from shapewright import Range, procedure
+from shapewright.modelling.solids import box, cylinder
+
+
+@procedure
+def table(
+    height: Annotated[float, Range(0.5, 1.0, steps=8)] = 0.7,
+    breadth: Annotated[float, Range(0.3, 1.0, steps=8)] = 0.6,
+    top_thickness: Annotated[float, Range(0.05, 0.25, steps=5)] = 0.1,  # of the height
+    leg_thickness: Annotated[float, Range(0.05, 0.25, steps=5)] = 0.1,  # of the breadth
+    round_top: bool = False,
+    legs: Literal["basic", "support"] = "basic",
+):
+    thick = height * top_thickness
+    side = breadth * leg_thickness
+    top = (cylinder if round_top else box)((1, thick, breadth), at=(0, (height - thick) / 2, 0)).label("top")
+    return top | four_legs(height, breadth, side, 1.41 if round_top else 1, stretchers=legs == "support")
+
+
+def four_legs(height, breadth, side, inset, stretchers):
+    x, z = (1 / inset - side) / 2, (breadth / inset - side) / 2
+    leg = box((side, height, side), at=(x, 0, z)).label("legs")
+    legs = leg.mirror("x", keep=True).mirror("z", keep=True)
+    if not stretchers:
+        return legs
+    across = box((side, side, breadth / inset), at=(x, -height / 3, 0)).mirror("x", keep=True)
+    along = box((2 * x, side, side), at=(0, -height / 3, 0))
+    return legs | (across | along).label("stretchers")

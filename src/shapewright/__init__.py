@@ -1,0 +1,64 @@
+"""shapewright: find the parameters that replicate a collection of shapes, and see what the procedure cannot make."""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from shapewright.parameters import Binary, Choice, Integer, ParameterSpace, Range, Scalar, When
+from shapewright.procedure import Infeasible, Procedure, ProcedureError, load_procedure, procedure
+from shapewright.settings import Settings
+from shapewright.shapes import Drawing, Mesh, Transform
+
+if TYPE_CHECKING:
+    from shapewright.authoring import fit, train
+    from shapewright.comparison import light_field
+    from shapewright.iteration import Iteration
+    from shapewright.prediction.predictor import Predictor
+    from shapewright.references import Collection, CollectionError, Reference
+
+# An author's file imports this package in every worker process: what loads torch or numba is loaded when first used.
+_ON_FIRST_USE = {
+    "fit": "shapewright.authoring",
+    "light_field": "shapewright.comparison.light_field",
+    "Iteration": "shapewright.iteration",
+    "Predictor": "shapewright.prediction.predictor",
+    "train": "shapewright.authoring",
+    "Collection": "shapewright.references",
+    "CollectionError": "shapewright.references",
+    "Reference": "shapewright.references",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _ON_FIRST_USE:
+        raise AttributeError(f"module 'shapewright' has no attribute {name!r}")
+    if name == "light_field":
+        return importlib.import_module("shapewright.comparison.light_field")
+    return getattr(importlib.import_module(_ON_FIRST_USE[name]), name)
+
+
+__all__ = [
+    "Binary",
+    "Choice",
+    "Collection",
+    "CollectionError",
+    "Drawing",
+    "Infeasible",
+    "Integer",
+    "Iteration",
+    "Mesh",
+    "ParameterSpace",
+    "Predictor",
+    "Procedure",
+    "ProcedureError",
+    "Range",
+    "Reference",
+    "Scalar",
+    "Settings",
+    "Transform",
+    "When",
+    "fit",
+    "light_field",
+    "load_procedure",
+    "procedure",
+    "train",
+]

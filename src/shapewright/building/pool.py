@@ -1,0 +1,181 @@
+"""Building many shapes: in worker processes that a bad procedure cannot take down with it.
+
+Each worker is a fresh interpreter (``python -m shapewright.building.worker``), so an author's script needs no
+``__main__`` guard and nothing is inherited from a process that runs torch. Shapes travel in slices; when a worker dies
+or hangs, its slice is built again one shape at a time, so that only the shape at fault is lost.
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from types import TracebackType
+
+import cloudpickle
+
+from shapewright.building.outcomes import Build, Failure, Limits, describe_failures
+from shapewright.building.process import WorkerProcess
+from shapewright.parameters import Parameters
+from shapewright.procedure import Procedure, ProcedureError
+
+SLICE = 64
+_PROBES = (3, 8)
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+class Workers:
+    """A few worker processes that build shapes of one procedure; a context manager.
+
+    The results are in the order asked for and do not depend on the number of workers.
+    """
+
+    def __init__(self, procedure: Procedure, count: int | None = None, limits: Limits | None = None) -> None:
+        self.procedure = procedure
+        self.count = count or cores()
+        self.limits = limits or Limits()
+        self._payload = _payload(procedure)
+        self._idle: list[WorkerProcess] = []
+        self._lock = threading.Lock()
+
+    def __enter__(self) -> Workers:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        for worker in self._idle:
+            worker.stop()
+        self._idle.clear()
+
+    def build(
+        self, parameters: Sequence[Parameters], progress: Callable[[int, int], None] | None = None
+    ) -> list[Build]:
+        """Build every vector. A failure costs its own shape only.
+
+        Raises ProcedureError when the first shapes all fail for another reason than Infeasible (3 that exceed the time
+        limit, or 8 of any kind): then the procedure itself is broken, and building thousands would only say so later.
+        """
+        results: list[Build | None] = [None] * len(parameters)
+        done = 0
+        for count in _PROBES:
+            probes = range(done, min(count, len(parameters)))
+            self._run(parameters, [probes[i : i + 1] for i in range(len(probes))], results, None)
+            done = max(done, probes.stop)
+            _give_up_if_broken([result for result in results[:done] if result is not None], count)
+        rest = [range(i, min(i + SLICE, len(parameters))) for i in range(done, len(parameters), SLICE)]
+        self._run(parameters, rest, results, progress)
+        return [result for result in results if result is not None]
+
+    def _run(
+        self,
+        parameters: Sequence[Parameters],
+        slices: list[range],
+        results: list[Build | None],
+        progress: Callable[[int, int], None] | None,
+    ) -> None:
+        tasks: queue.SimpleQueue[range] = queue.SimpleQueue()
+        for piece in slices:
+            tasks.put(piece)
+        errors: list[BaseException] = []
+        stop = threading.Event()
+
+        def serve() -> None:
+            try:
+                worker: WorkerProcess | None = None
+                while not stop.is_set():
+                    try:
+                        piece = tasks.get_nowait()
+                    except queue.Empty:
+                        break
+                    worker = self._serve(worker or self._take(), parameters, piece, results, tasks, stop)
+                if worker:
+                    self._idle.append(worker)
+            except BaseException as error:  # noqa: BLE001 - handed to the caller's thread
+                errors.append(error)
+                stop.set()
+
+        threads = [threading.Thread(target=serve, daemon=True) for _ in range(min(self.count, len(slices)))]
+        for thread in threads:
+            thread.start()
+        try:
+            while any(thread.is_alive() for thread in threads):
+                for thread in threads:
+                    thread.join(0.05)
+                if progress:
+                    progress(sum(result is not None for result in results), len(results))
+        except BaseException:
+            stop.set()
+            for thread in threads:
+                thread.join()
+            raise
+        if errors:
+            raise errors[0]
+
+    def _take(self) -> WorkerProcess:
+        with self._lock:
+            if self._idle:
+                return self._idle.pop()
+        return WorkerProcess(self._payload, self.limits)
+
+    def _serve(
+        self,
+        worker: WorkerProcess,
+        parameters: Sequence[Parameters],
+        piece: range,
+        results: list[Build | None],
+        tasks: queue.SimpleQueue[range],
+        stop: threading.Event,
+    ) -> WorkerProcess | None:
+        """Build one slice; returns the worker, or None when it had to be ended."""
+        outcome = worker.ask([parameters[i] for i in piece], stop)
+        if isinstance(outcome, Failure):
+            worker.stop()
+            if stop.is_set():
+                return None
+            if len(piece) == 1:
+                results[piece[0]] = Build(parameters[piece[0]], None, outcome)
+            else:
+                for i in piece:
+                    tasks.put(range(i, i + 1))
+            return None
+        for i, build in zip(piece, outcome, strict=False):
+            results[i] = build
+        if len(outcome) < len(piece):
+            tasks.put(piece[len(outcome) :])
+        return worker
+
+
+def build_all(
+    procedure: Procedure,
+    parameters: Sequence[Parameters],
+    workers: int | None = None,
+    limits: Limits | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Build]:
+    """Build a shape for each parameter vector, in order (see Workers.build)."""
+    with Workers(procedure, workers, limits) as crew:
+        return crew.build(parameters, progress)
+
+
+def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:
+    kinds = {build.failure.kind if build.failure else None for build in probes}
+    hopeless = kinds == {"time"} or (enough == _PROBES[-1] and not kinds & {None, "infeasible"})
+    if len(probes) >= enough and hopeless:
+        raise ProcedureError(f"every one of the first {len(probes)} shapes failed: {describe_failures(probes)}")
+
+
+def _payload(procedure: Procedure) -> bytes:
+    if procedure.path:
+        return bytes(cloudpickle.dumps((f"{procedure.path}:{procedure.name}", list(sys.path))))
+    try:
+        return bytes(cloudpickle.dumps((procedure, list(sys.path))))
+    except Exception as error:
+        raise ProcedureError(
+            f"{procedure.where}: it cannot be sent to the worker processes ({error}); "
+            "put the procedure in a file of its own and load it with load_procedure"
+        ) from error

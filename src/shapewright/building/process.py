@@ -1,0 +1,119 @@
+"""One worker process, seen from its parent: started, asked, and ended when a shape takes it down."""
+
+from __future__ import annotations
+
+import os
+import queue
+import secrets
+import subprocess
+import sys
+import tempfile
+import threading
+from multiprocessing.connection import Connection, Listener
+from pathlib import Path
+from typing import Any
+
+from shapewright.building.outcomes import Build, Failure, Limits
+from shapewright.parameters import Parameters
+from shapewright.procedure import ProcedureError
+
+_START_SECONDS = 60.0
+_SINGLE_THREADED = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+
+
+class WorkerProcess:
+    """One worker process and the connection to it."""
+
+    def __init__(self, payload: bytes, limits: Limits) -> None:
+        self.limits = limits
+        key = secrets.token_bytes(32)
+        with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
+            address = None if sys.platform == "win32" else str(Path(folder) / "worker")
+            with Listener(address, authkey=key) as listener:
+                self.process = subprocess.Popen(
+                    [sys.executable, "-m", "shapewright.building.worker", str(listener.address)],
+                    stdin=subprocess.PIPE,
+                    stdout=sys.stderr.fileno() if _has_descriptor(sys.stderr) else subprocess.DEVNULL,
+                    env={**os.environ, **_SINGLE_THREADED},
+                )
+                assert self.process.stdin is not None
+                self.process.stdin.write(key)
+                self.process.stdin.close()
+                self.connection = self._accept(listener)
+        self.connection.send_bytes(payload)
+        self.connection.send(limits)
+        if not self.connection.poll(_START_SECONDS):
+            self.stop()
+            raise ProcedureError("a worker process read the procedure's file and did not answer within a minute")
+        ready = self._receive()
+        if isinstance(ready, Failure):
+            self.stop()
+            raise ProcedureError(ready.message)
+
+    def ask(self, parameters: list[Parameters], stop: threading.Event) -> list[Build] | Failure:
+        """The builds of the first few vectors (at least one), or the failure that ended the worker.
+
+        A worker answers after a fraction of the time limit at the latest, unless a shape exceeds the limit itself.
+        """
+        try:
+            self.connection.send(parameters)
+            patience = 1.25 * self.limits.seconds + 0.5
+            while not self.connection.poll(min(0.2, patience)):
+                patience -= 0.2
+                if stop.is_set() or patience <= 0.0:
+                    return Failure("time", f"it took longer than {self.limits.seconds:g} s")
+        except OSError:
+            return self._death()
+        answer: list[Build] | Failure = self._receive()
+        return answer
+
+    def _receive(self) -> Any:
+        try:
+            return self.connection.recv()
+        except (EOFError, OSError):
+            return self._death()
+
+    def _death(self) -> Failure:
+        try:
+            status = self.process.wait(timeout=2.0)
+        except subprocess.TimeoutExpired:
+            return Failure("crash", "the worker process broke off its answer")
+        if status < 0:
+            return Failure("crash", f"it killed its process (signal {-status})")
+        return Failure("crash", f"it ended its process (exit status {status})")
+
+    def _accept(self, listener: Listener) -> Connection:
+        accepted: queue.SimpleQueue[Connection | BaseException] = queue.SimpleQueue()
+
+        def wait() -> None:
+            try:
+                accepted.put(listener.accept())
+            except BaseException as error:  # noqa: BLE001 - handed to the caller's thread
+                accepted.put(error)
+
+        threading.Thread(target=wait, daemon=True).start()
+        for _ in range(int(_START_SECONDS / 0.1)):
+            try:
+                result = accepted.get(timeout=0.1)
+            except queue.Empty:
+                if self.process.poll() is not None:
+                    break
+                continue
+            if isinstance(result, BaseException):
+                raise result
+            return result
+        self.process.kill()
+        raise RuntimeError(f"a worker process did not start (exit status {self.process.poll()})")
+
+    def stop(self) -> None:
+        if hasattr(self, "connection"):
+            self.connection.close()
+        self.process.kill()
+        self.process.wait()
+
+
+def _has_descriptor(stream: Any) -> bool:
+    try:
+        return bool(stream.fileno() >= 0)
+    except (AttributeError, OSError, ValueError):
+        return False

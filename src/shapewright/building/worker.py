@@ -1,0 +1,86 @@
+"""The program of a worker process: build the shapes that its parent asks for, one procedure a process."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pickle
+import signal
+import sys
+import time
+from multiprocessing.connection import Client, Connection
+from pathlib import Path
+
+from shapewright.building.outcomes import Build, Failure, Limits
+from shapewright.parameters import Parameters
+from shapewright.procedure import Infeasible, Procedure, ProcedureError, author_line, load_procedure
+
+_ANSWER_WITHIN = 0.25
+
+
+def serve(connection: Connection) -> None:
+    """Answer requests until the other side hangs up."""
+    target, search_path = pickle.loads(connection.recv_bytes())
+    limits: Limits = connection.recv()
+    sys.path[:] = search_path
+    try:
+        procedure = load_procedure(target) if isinstance(target, str) else target
+    except ProcedureError as error:
+        connection.send(Failure("raised", str(error)))
+        return
+    _limit_memory(limits.memory_mb)
+    connection.send("ready")
+    while True:
+        requests: list[Parameters] = connection.recv()
+        connection.send(_build_some(procedure, requests, limits))
+
+
+def _build_some(procedure: Procedure, requests: list[Parameters], limits: Limits) -> list[Build]:
+    """Build in order until a fraction of the time limit has passed, so that a hang is noticed soon."""
+    started = time.perf_counter()
+    builds: list[Build] = []
+    for parameters in requests:
+        builds.append(_build(procedure, parameters, limits))
+        if time.perf_counter() - started > _ANSWER_WITHIN * limits.seconds:
+            break
+    return builds
+
+
+def _build(procedure: Procedure, parameters: Parameters, limits: Limits) -> Build:
+    started = time.perf_counter()
+    shape, failure = None, None
+    try:
+        shape = procedure(**parameters)
+    except Infeasible as error:
+        failure = Failure("infeasible", str(error) or "it is infeasible")
+    except ProcedureError as error:
+        failure = Failure("no shape", str(error))
+    except MemoryError:
+        failure = Failure("memory", f"it needed more than {limits.memory_mb} MB of memory")
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever the author's code raises is a result
+        failure = Failure("raised", author_line(error, procedure.path))
+    return Build(parameters, shape, failure, time.perf_counter() - started)
+
+
+def _limit_memory(megabytes: int) -> None:
+    """Cap the address space at what is mapped now plus the limit; on systems without rlimits there is no cap."""
+    try:
+        import resource
+    except ImportError:
+        return
+    mapped = 0
+    with contextlib.suppress(OSError), Path("/proc/self/statm").open() as statm:
+        mapped = int(statm.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+    with contextlib.suppress(ValueError, OSError):
+        resource.setrlimit(resource.RLIMIT_AS, (mapped + megabytes * 2**20, resource.RLIM_INFINITY))
+
+
+def main() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    key = sys.stdin.buffer.read(32)
+    with contextlib.suppress(EOFError, ConnectionError), Client(sys.argv[1], authkey=key) as connection:
+        serve(connection)
+
+
+if __name__ == "__main__":
+    main()

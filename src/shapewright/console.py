@@ -1,0 +1,150 @@
+"""What the command line prints: progress bars on standard error, summaries and JSON on standard output."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, Task, TextColumn, TimeRemainingColumn
+from rich.table import Table
+from rich.text import Text
+
+from shapewright.iteration import Iteration
+from shapewright.progress import Listener
+from shapewright.progress import Progress as Event
+from shapewright.report import Comparison
+
+_DOING = {
+    "sample": "building samples",
+    "render": "rendering",
+    "train": "training",
+    "predict": "predicting",
+    "replicate": "building replicas",
+    "compare": "comparing",
+    "group": "grouping",
+    "picture": "drawing pictures",
+}
+
+
+class _Rate(ProgressColumn):
+    """Steps a second."""
+
+    def render(self, task: Task) -> Text:
+        return Text(f"{task.speed:,.1f}/s" if task.speed else "", style="dim")
+
+
+@contextmanager
+def progress_bars(errors: Console) -> Iterator[Listener]:
+    """A listener that draws one bar a stage; on a dumb terminal or in a file, one line a stage."""
+    if not errors.is_terminal:
+        yield _plain_listener(errors)
+        return
+    columns = (TextColumn("{task.description:>18}"), BarColumn(), MofNCompleteColumn(), _Rate(), TimeRemainingColumn())
+    with Progress(*columns, TextColumn("[dim]{task.fields[remark]}"), console=errors) as bars:
+        tasks: dict[str, Any] = {}
+
+        def listen(event: Event) -> None:
+            if event.stage not in tasks:
+                tasks[event.stage] = bars.add_task(_DOING.get(event.stage, event.stage), total=event.total, remark="")
+            bars.update(tasks[event.stage], completed=event.done, total=event.total, remark=escape(event.remark))
+
+        yield listen
+
+
+def _plain_listener(errors: Console) -> Listener:
+    seen: set[str] = set()
+
+    def listen(event: Event) -> None:
+        if event.stage not in seen:
+            seen.add(event.stage)
+            errors.print(f"{_DOING.get(event.stage, event.stage)} ({event.total}) ...", highlight=False)
+
+    return listen
+
+
+def print_json(value: Any) -> None:
+    """One JSON object as one line on standard output."""
+    typer.echo(json.dumps(value, allow_nan=False))
+
+
+def print_iteration(console: Console, iteration: Iteration, folder: Path) -> None:
+    """Counts, groups, held-out metrics, and where the report is."""
+    total = len(iteration)
+    console.print(
+        f"\n[bold]{len(iteration.compatible)} of {total}[/] references are compatible "
+        f"(light-field distance at most {iteration.settings.threshold:g})",
+        highlight=False,
+    )
+    skipped = iteration.collection["skipped"]
+    if skipped:
+        console.print(f"[yellow]{len(skipped)} files could not be read:[/]")
+        for path, reason in list(skipped.items())[:5]:
+            console.print(f"  {escape(path)}: {escape(reason)}", highlight=False)
+    if iteration.metrics["failed"]:
+        console.print(
+            f"[yellow]{iteration.metrics['failed']} samples failed:[/] {escape(iteration.metrics['failures'])}"
+        )
+    if iteration.groups:
+        table = Table("group", "references", "distance", box=None, header_style="dim", title_justify="left")
+        for group in iteration.groups[:10]:
+            table.add_row(
+                escape(group.representative), str(len(group)), f"{iteration[group.representative].distance:.2f}"
+            )
+        console.print("\nmisfits that look alike, by the one in their middle:")
+        console.print(table)
+        if len(iteration.groups) > 10:
+            console.print(f"  and {len(iteration.groups) - 10} more groups")
+    console.print(
+        f"\n[dim]{sum(iteration.seconds.values()):.0f} s[/]   report: {escape(str(folder / 'report.html'))}",
+        soft_wrap=True,
+    )
+
+
+def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
+    """What ``fit --json`` prints."""
+    record = iteration.record
+    return {
+        "run": str(folder),
+        "report": str(folder / "report.html"),
+        "references": len(iteration),
+        "compatible": len(iteration.compatible),
+        "incompatible": len(iteration.incompatible),
+        "skipped": record["collection"]["skipped"],
+        "groups": record["groups"],
+        "metrics": record["metrics"]["validation"],
+        "failed_samples": record["metrics"]["failed"],
+        "seconds": record["seconds"],
+        "results": {
+            entry["name"]: {key: entry[key] for key in ("parameters", "distance", "iou", "compatible", "group")}
+            for entry in record["references"]
+        },
+    }
+
+
+def print_comparison(console: Console, before: Path, after: Path, comparison: Comparison) -> None:
+    """What changed between two runs, and how far each reference moved."""
+    console.print(f"from {escape(str(before))} to {escape(str(after))}", highlight=False)
+    for title, moves in (
+        ("newly compatible", comparison.gained),
+        ("lost", comparison.lost),
+        ("closer, not across the threshold", comparison.closer),
+        ("further, not across the threshold", comparison.further),
+    ):
+        console.print(f"\n[bold]{len(moves)}[/] {title}", highlight=False)
+        for move in moves:
+            console.print(
+                f"  {_distance(move.before)} -> {_distance(move.after)}  {escape(move.name)}", highlight=False
+            )
+    for title, names in (("only in the new run", comparison.added), ("only in the old run", comparison.removed)):
+        if names:
+            console.print(f"\n[bold]{len(names)}[/] {title}: {escape(', '.join(names))}", highlight=False)
+
+
+def _distance(value: float | None) -> str:
+    return "  none" if value is None else f"{value:6.3f}"

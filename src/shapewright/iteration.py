@@ -1,0 +1,187 @@
+"""One turn of the loop, finished: what was found for every reference; written to disk and read back."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from shapewright.comparison.grouping import Group
+from shapewright.rendering.thumbnails import thumbnails
+from shapewright.report import write_report
+from shapewright.results import Result, file_names, from_record, to_record
+from shapewright.settings import Settings
+from shapewright.shapes import Mesh
+from shapewright.workspace import FORMAT, RECORD, new_folder, read_record
+
+Pictures = Mapping[str, tuple[bytes, bytes | None]]
+
+
+@dataclass(frozen=True, eq=False)
+class Iteration:
+    """The results of one turn of the loop: ``it["name"]``, ``it.compatible``, ``it.groups``, ``it.seconds``.
+
+    procedure, collection, metrics, versions: records as the run's JSON holds them. source: text of the procedure.
+    """
+
+    results: tuple[Result, ...]
+    groups: tuple[Group, ...]
+    settings: Settings
+    seconds: Mapping[str, float]
+    procedure: Mapping[str, Any]
+    source: str
+    collection: Mapping[str, Any]
+    metrics: Mapping[str, Any]
+    versions: Mapping[str, str]
+    created: str
+    pictures: Pictures = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def _by_name(self) -> dict[str, Result]:
+        return {result.name: result for result in self.results}
+
+    def __getitem__(self, name: str) -> Result:
+        if name not in self._by_name:
+            raise KeyError(f"no reference {name!r} in this iteration")
+        return self._by_name[name]
+
+    def __iter__(self) -> Iterator[Result]:
+        return iter(self.results)
+
+    def __len__(self) -> int:
+        return len(self.results)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(self._by_name)
+
+    @property
+    def compatible(self) -> tuple[str, ...]:
+        """Names of the references that the procedure replicates."""
+        return tuple(result.name for result in self.results if result.compatible)
+
+    @property
+    def incompatible(self) -> tuple[str, ...]:
+        return tuple(result.name for result in self.results if not result.compatible)
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """Everything but meshes and pictures, as plain values for JSON; NaN becomes null."""
+        slugs = file_names(self.names)
+        return {
+            "format": FORMAT,
+            "created": self.created,
+            "version": self.versions["shapewright"],
+            "versions": dict(self.versions),
+            "seed": self.settings.seed,
+            "settings": self.settings.record(),
+            "procedure": dict(self.procedure),
+            "collection": dict(self.collection),
+            "threshold": self.settings.threshold,
+            "references": [to_record(result, slugs[result.name]) for result in self.results],
+            "groups": [{"representative": g.representative, "members": list(g.members)} for g in self.groups],
+            "metrics": dict(self.metrics),
+            "seconds": dict(self.seconds),
+        }
+
+    def save(self, folder: str | Path, previous: str | Path | None = None) -> Path:
+        """Write the run to a folder that does not exist yet, whole or not at all, and return it.
+
+        previous: an earlier run's folder, which the report compares with. Raises RunError when the folder holds
+        something already or cannot be written; then nothing is left behind.
+        """
+        folder = Path(folder).expanduser().absolute()
+        with new_folder(folder) as partial:
+            self._write(partial)
+            write_report(partial, Path(previous) if previous else None)
+        return folder
+
+    @classmethod
+    def load(cls, folder: str | Path) -> Iteration:
+        """Read a run back, without the references' meshes. Raises RunError when the folder holds no whole run."""
+        folder = Path(folder).expanduser()
+        record = read_record(folder)
+        groups = tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"])
+        return cls(
+            results=tuple(from_record(entry, _read_replica(folder, entry)) for entry in record["references"]),
+            groups=groups,
+            settings=Settings.from_record(record["settings"]),
+            seconds=record["seconds"],
+            procedure=record["procedure"],
+            source=(folder / "procedure.py").read_text(encoding="utf-8"),
+            collection=record["collection"],
+            metrics=record["metrics"],
+            versions=record["versions"],
+            created=record["created"],
+            pictures={entry["name"]: _read_pictures(folder, entry["slug"]) for entry in record["references"]},
+        )
+
+    def _write(self, folder: Path) -> None:
+        (folder / RECORD).write_text(json.dumps(self.record, indent=1, allow_nan=False), encoding="utf-8")
+        (folder / "procedure.py").write_text(self.source, encoding="utf-8")
+        found = {result.name: result.parameters for result in self.results}
+        (folder / "parameters.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
+        self._write_csv(folder / "parameters.csv")
+        (folder / "replicas").mkdir()
+        (folder / "thumbnails").mkdir()
+        pictures = self.pictures or draw_pictures(self.results)
+        slugs = file_names(self.names)
+        for result in self.results:
+            slug = slugs[result.name]
+            if result.replica is not None:
+                (folder / "replicas" / f"{slug}.glb").write_bytes(_glb(result.replica))
+            for kind, picture in zip(("reference", "replica"), pictures[result.name], strict=True):
+                if picture is not None:
+                    (folder / "thumbnails" / f"{slug}.{kind}.png").write_bytes(picture)
+
+    def _write_csv(self, path: Path) -> None:
+        names = [parameter["name"] for parameter in self.procedure["parameters"]]
+        with path.open("w", newline="", encoding="utf-8") as file:
+            table = csv.writer(file)
+            table.writerow(["reference", "compatible", "distance", "iou", "chamfer", "group", *names])
+            for result in self.results:
+                measures = ("" if math.isnan(m) else f"{m:.6f}" for m in (result.distance, result.iou, result.chamfer))
+                values = (result.parameters or {}).get
+                group = "" if result.group is None else result.group
+                table.writerow([result.name, result.compatible, *measures, group, *(values(n, "") for n in names)])
+
+
+def draw_pictures(results: Sequence[Result], threads: int | None = None) -> Pictures:
+    """Thumbnails (PNG) of every reference and replica, by name."""
+    references = thumbnails([r.reference for r in results if r.reference is not None], threads=threads)
+    replicas = iter(thumbnails([r.replica for r in results if r.replica is not None], threads=threads))
+    return {
+        result.name: (picture, next(replicas) if result.replica is not None else None)
+        for result, picture in zip(results, references, strict=True)
+    }
+
+
+def _read_pictures(folder: Path, slug: str) -> tuple[bytes, bytes | None]:
+    replica = folder / "thumbnails" / f"{slug}.replica.png"
+    return (folder / "thumbnails" / f"{slug}.reference.png").read_bytes(), (
+        replica.read_bytes() if replica.exists() else None
+    )
+
+
+def _glb(mesh: Mesh) -> bytes:
+    import trimesh
+
+    exported = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).export(file_type="glb")
+    assert isinstance(exported, bytes)
+    return exported
+
+
+def _read_replica(folder: Path, entry: Mapping[str, Any]) -> Mesh | None:
+    import trimesh
+
+    if not entry["replica"]:
+        return None
+    mesh = trimesh.load_mesh(folder / entry["replica"], process=False)
+    return Mesh(np.asarray(mesh.vertices), np.asarray(mesh.faces))

@@ -1,0 +1,86 @@
+"""Training data: sampled parameters, the shapes they build, and their pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shapewright.building import Build, Limits, Workers, describe_failures
+from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.procedure import Procedure, ProcedureError
+from shapewright.rendering.cameras import THREE_VIEWS, Camera
+from shapewright.rendering.raster import render
+from shapewright.shapes import Mesh
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Dataset:
+    """Pictures of shapes and the parameters that built them.
+
+    parameters: N vectors in the procedure's units. targets: (N, P) float32, encoded. active: (N, P) bool, whether the
+    parameter matters there. images: (N, C, 2, S, S) uint8.
+    """
+
+    parameters: list[Parameters]
+    targets: NDArray[np.float32]
+    active: NDArray[np.bool_]
+    images: NDArray[np.uint8]
+
+    def __len__(self) -> int:
+        return len(self.parameters)
+
+    def take(self, indices: NDArray[np.int64]) -> Dataset:
+        rows = [self.parameters[i] for i in indices]
+        return Dataset(rows, self.targets[indices], self.active[indices], self.images[indices])
+
+
+def build_samples(
+    procedure: Procedure,
+    count: int,
+    seed: int,
+    workers: int | None = None,
+    limits: Limits | None = None,
+    progress: Progress | None = None,
+) -> list[Build]:
+    """Builds of ``count`` different random vectors, failed ones among them."""
+    with Workers(procedure, workers, limits) as crew:
+        return crew.build(procedure.space.sample(count, seed=seed), progress)
+
+
+def meshes_of(builds: Sequence[Build]) -> tuple[list[Build], list[Mesh]]:
+    """The builds that gave a mesh, and these meshes normalised. Raises ProcedureError when fewer than 10 did."""
+    good = [build for build in builds if isinstance(build.shape, Mesh)]
+    if len(good) < min(10, len(builds)):
+        drawings = any(build.shape is not None and not isinstance(build.shape, Mesh) for build in builds)
+        why = "it builds drawings, and references are meshes" if drawings else describe_failures(builds)
+        raise ProcedureError(f"only {len(good)} of {len(builds)} sampled shapes can be used: {why}")
+    return good, [build.shape.normalised() for build in good if isinstance(build.shape, Mesh)]
+
+
+def make_dataset(
+    space: ParameterSpace,
+    parameters: Sequence[Parameters],
+    meshes: Sequence[Mesh],
+    cameras: Sequence[Camera] = THREE_VIEWS,
+    size: int = 64,
+    threads: int | None = None,
+) -> Dataset:
+    """Render normalised meshes from every camera and encode their parameters."""
+    active = np.array([[name in set(space.active(values)) for name in space.names] for values in parameters])
+    targets = np.array([space.encode(values) for values in parameters], dtype=np.float32)
+    return Dataset(list(parameters), targets, active, render(meshes, cameras, size, threads=threads))
+
+
+def split(count: int, seed: int, shares: tuple[float, float] = (0.8, 0.1)) -> tuple[NDArray[np.int64], ...]:
+    """Indices of the training, validation and test rows, disjoint, at random (paper section 4.2: .8, .1, .1).
+
+    Rows differ from each other (ParameterSpace.sample draws without replacement), so nothing leaks between the parts.
+    """
+    order = np.random.default_rng(seed).permutation(count)
+    first, second = (round(count * sum(shares[:i])) for i in (1, 2))
+    return order[:first], order[first:second], order[second:]

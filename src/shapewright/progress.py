@@ -1,0 +1,51 @@
+"""What a long computation tells whoever watches it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Progress:
+    """A stage of an iteration: how many of its steps are done, and a remark."""
+
+    stage: str
+    done: int
+    total: int
+    remark: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.stage} {self.done}/{self.total}{' ' + self.remark if self.remark else ''}"
+
+
+Listener = Callable[[Progress], object]
+
+
+class Stages:
+    """Reports the stages of one iteration to a listener, a few times a second at most, and keeps their seconds."""
+
+    INTERVAL = 0.2
+
+    def __init__(self, listener: Listener | None) -> None:
+        self.seconds: dict[str, float] = {}
+        self._listener = listener
+        self._stage = ""
+        self._started = self._told = 0.0
+
+    def begin(self, stage: str, total: int) -> None:
+        self.end()
+        self._stage, self._started, self._told = stage, time.perf_counter(), 0.0
+        self.step(0, total)
+
+    def step(self, done: int, total: int, remark: str = "") -> None:
+        now = time.perf_counter()
+        if self._listener and (now - self._told >= self.INTERVAL or done >= total):
+            self._told = now
+            self._listener(Progress(self._stage, done, total, remark))
+
+    def end(self) -> None:
+        if self._stage:
+            self.seconds[self._stage] = time.perf_counter() - self._started
+            self._stage = ""

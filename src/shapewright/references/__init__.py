@@ -1,0 +1,8 @@
+"""Collections of references: found, read, turned Y up, centred and scaled."""
+
+from shapewright.references.collection import Collection, Reference
+from shapewright.references.errors import CollectionError
+from shapewright.references.files import EXTENSIONS
+from shapewright.references.orientation import Orientation
+
+__all__ = ["EXTENSIONS", "Collection", "CollectionError", "Orientation", "Reference"]

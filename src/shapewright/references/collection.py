@@ -1,0 +1,162 @@
+"""Collections of references: the shapes that a procedure is to replicate."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from shapewright.conversion import as_shape
+from shapewright.references import files, sources
+from shapewright.references.errors import CollectionError, UnreadableError
+from shapewright.references.orientation import Orientation
+from shapewright.shapes import Floats, Mesh, Transform, mesh_digest
+
+_REASONS = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """One shape to replicate.
+
+    name: unique in its collection. path: its file, None for a shape made in memory.
+    shape: the mesh, Y up, front towards +Z, its bounding box centred and 1 at its largest.
+    orientation, transform: what was done to it, in this order. notes: what of the file was left out.
+    """
+
+    name: str
+    path: Path | None
+    shape: Mesh
+    transform: Transform
+    orientation: Orientation = field(default_factory=Orientation)
+    notes: tuple[str, ...] = ()
+
+    @cached_property
+    def digest(self) -> str:
+        """A key for the normalised geometry."""
+        return mesh_digest(self.shape)
+
+    def to_original(self, points: ArrayLike) -> Floats:
+        """Points (..., 3) in the frame of ``shape``, back in the file's own units and axes."""
+        return self.orientation.invert(self.transform.invert(points))
+
+    def __repr__(self) -> str:
+        return f"Reference({self.name!r}, {len(self.shape.faces)} faces)"
+
+
+@dataclass(frozen=True, eq=False)
+class Collection:
+    """The references to replicate, in natural order of their names: ``len``, iteration, ``refs["name"]``.
+
+    skipped: the files that could not be read, with the reason. source: where the collection came from, in words.
+    """
+
+    references: tuple[Reference, ...]
+    skipped: Mapping[Path, str] = field(default_factory=dict)
+    source: str = "memory"
+
+    @classmethod
+    def load(
+        cls,
+        source: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
+        *,
+        up: str = "y",
+        front: str | None = None,
+    ) -> Collection:
+        """Read a collection from a folder, a glob pattern, a CSV manifest, a file, or a list of these.
+
+        Read are OBJ, PLY, STL, OFF, GLB, glTF and 3MF; ``sources.find`` says which files a source stands for and how
+        they are named. ``up`` and ``front`` are the axes of the files that point up and to the front of the shapes,
+        among x, y, z, -x, -y, -z; without ``front`` it is z, or -y where up is z or -z, as in Blender and CAD. A file
+        that cannot be read is listed in ``skipped`` with its reason. Raises CollectionError, which says what to do,
+        where there is nothing to load.
+        """
+        origins = [source] if isinstance(source, str | os.PathLike) else list(source)
+        references: list[Reference] = []
+        skipped: dict[Path, str] = {}
+        for file in sources.find(origins, up, front):
+            try:
+                mesh, notes = files.read(file.path)
+            except UnreadableError as error:
+                skipped[file.path] = str(error)
+            else:
+                references.append(_normalised(file.name, file.path, mesh, file.orientation, notes))
+        if not references:
+            raise CollectionError(_nothing_readable(skipped))
+        more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
+        return cls(tuple(references), skipped, os.fspath(origins[0]) + more)
+
+    @classmethod
+    def of(cls, shapes: Mapping[str, Any], *, up: str = "y", front: str | None = None) -> Collection:
+        """A collection of named shapes in memory: Mesh, trimesh.Trimesh, (vertices, faces), or what procedures return.
+
+        ``up`` and ``front`` as for ``load``. Raises CollectionError for a shape that cannot be used.
+        """
+        orientation = Orientation.of(up, front)
+        if not shapes:
+            raise CollectionError("no shapes given; a collection needs at least one")
+        references = [_in_memory(name, shapes[name], orientation) for name in sorted(shapes, key=sources.natural_key)]
+        return cls(tuple(references))
+
+    @cached_property
+    def _by_name(self) -> dict[str, Reference]:
+        return {reference.name: reference for reference in self.references}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(self._by_name)
+
+    def __len__(self) -> int:
+        return len(self.references)
+
+    def __iter__(self) -> Iterator[Reference]:
+        return iter(self.references)
+
+    def __contains__(self, name: object) -> bool:
+        """Whether there is a reference of this name."""
+        return name in self._by_name
+
+    def __getitem__(self, name: str) -> Reference:
+        if name not in self._by_name:
+            near = difflib.get_close_matches(name, self.names) or self.names[:3]
+            raise KeyError(f"no reference {name!r} among {len(self)}; there is {', '.join(near)}")
+        return self._by_name[name]
+
+    def __repr__(self) -> str:
+        skipped = f", {len(self.skipped)} skipped" if self.skipped else ""
+        return f"Collection({len(self)} references from {self.source}{skipped})"
+
+
+def _normalised(
+    name: str, path: Path | None, mesh: Mesh, orientation: Orientation, notes: tuple[str, ...]
+) -> Reference:
+    turned = mesh.transformed(orientation.matrix)
+    return Reference(name, path, turned.normalised(), turned.normalisation(), orientation, notes)
+
+
+def _in_memory(name: str, value: Any, orientation: Orientation) -> Reference:
+    try:
+        shape = as_shape(value)
+        if not isinstance(shape, Mesh):
+            raise UnreadableError("a drawing; a collection holds meshes")
+        mesh, notes = files.sound(shape.vertices, shape.faces)
+    except TypeError as error:
+        kind = type(value).__name__
+        raise CollectionError(f"{name}: {kind} is no mesh; give a Mesh, a trimesh, or (vertices, faces)") from error
+    except ValueError as error:
+        raise CollectionError(f"{name}: {error}") from error
+    return _normalised(name, None, mesh, orientation, notes)
+
+
+def _nothing_readable(skipped: Mapping[Path, str]) -> str:
+    reasons = [f"{path}: {reason}" for path, reason in list(skipped.items())[:_REASONS]]
+    if len(skipped) > _REASONS:
+        reasons.append(f"and {len(skipped) - _REASONS} more")
+    counted = f"none of the {len(skipped)} files can be read" if len(skipped) > 1 else "the only file cannot be read"
+    return "\n  ".join([f"{counted}:", *reasons])

@@ -1,0 +1,60 @@
+"""Which axes of a file point up and to the front, and the rotation that brings them to +Y and +Z."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from shapewright.references.errors import CollectionError
+from shapewright.shapes import Floats
+
+AXES = ("x", "y", "z", "-x", "-y", "-z")
+
+
+@dataclass(frozen=True)
+class Orientation:
+    """The axes of a file that point up and to the front of its shape; they stand at right angles."""
+
+    up: str = "y"
+    front: str = "z"
+
+    def __post_init__(self) -> None:
+        for word, axis in (("up", self.up), ("front", self.front)):
+            if axis not in AXES:
+                raise CollectionError(f"{word}={axis!r} is no axis; use one of {', '.join(AXES)}")
+        if self.up[-1] == self.front[-1]:
+            raise CollectionError(f"up={self.up!r} and front={self.front!r} are parallel; use two different axes")
+
+    @classmethod
+    def of(cls, up: str = "y", front: str | None = None) -> Orientation:
+        """The orientation in words: ``up`` and ``front`` among x, y, z, -x, -y, -z, in either case.
+
+        Without ``front`` it is +Z, as in glTF; where up is Z or -Z it is -Y, which the front view of Blender and of CAD
+        programs looks at. Raises CollectionError for a word that is no axis, and for two words on one axis.
+        """
+        up = up.strip().lower().removeprefix("+")
+        if front is None:
+            front = "-y" if up in ("z", "-z") else "z"
+        return cls(up, front.strip().lower().removeprefix("+"))
+
+    @property
+    def matrix(self) -> Floats:
+        """(3, 3): the rotation from the file's axes to Y up, front +Z; its determinant is +1."""
+        up, front = _unit(self.up), _unit(self.front)
+        return np.stack([np.cross(up, front), up, front])
+
+    def apply(self, points: ArrayLike) -> Floats:
+        """Points (..., 3) of the file, turned Y up with the front towards +Z."""
+        return np.asarray(np.asarray(points, dtype=np.float64) @ self.matrix.T)
+
+    def invert(self, points: ArrayLike) -> Floats:
+        """Points (..., 3) back in the axes of the file."""
+        return np.asarray(np.asarray(points, dtype=np.float64) @ self.matrix)
+
+
+def _unit(axis: str) -> Floats:
+    unit = np.zeros(3)
+    unit["xyz".index(axis[-1])] = -1.0 if axis.startswith("-") else 1.0
+    return unit

@@ -1,0 +1,84 @@
+"""Polygons as files hold them, with any number of corners, and the triangles that fill them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shapewright.references.errors import UnreadableError
+from shapewright.shapes import Floats, Ints
+
+# A corner that turns back by less than this share of the polygon's area does not spoil a fan that anyone could see.
+_REFLEX = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Polygons:
+    """The polygons of a file.
+
+    vertices: (V, 3) float64. corners: (C,) int64, the vertices of every polygon, one polygon after the other.
+    counts: (P,) int64, the number of corners of each; they add up to C.
+    """
+
+    vertices: Floats
+    corners: Ints
+    counts: Ints
+
+
+def triangulate(polygons: Polygons) -> Ints:
+    """Faces (F, 3) in the order of the polygons: n - 2 for each of n corners, none for points and lines.
+
+    A convex polygon is cut as a fan around its first corner, any other by manifold3d's ear clipping after projection
+    along its normal (Newell's). Raises UnreadableError for a corner that points at no vertex.
+    """
+    vertices, corners, counts = polygons.vertices, polygons.corners, polygons.counts
+    check_indices(corners, len(vertices))
+    starts = np.cumsum(counts) - counts
+    triangles = np.maximum(counts - 2, 0)
+    firsts = np.cumsum(triangles) - triangles
+    faces = np.empty((int(triangles.sum()), 3), dtype=np.int64)
+    for count in np.unique(counts[counts >= 3]):
+        alike = np.flatnonzero(counts == count)
+        loops = corners[starts[alike, None] + np.arange(count)]
+        cuts = np.stack(np.broadcast_arrays(loops[:, :1], loops[:, 1:-1], loops[:, 2:]), axis=-1)
+        if count > 3:
+            for i in np.flatnonzero(~_convex(vertices[loops])):
+                cuts[i] = loops[i][_clip_ears(vertices[loops[i]])]
+        faces[firsts[alike, None] + np.arange(count - 2)] = cuts
+    return faces
+
+
+def check_indices(corners: Ints, vertex_count: int) -> None:
+    """Raise UnreadableError where a corner points outside the vertices."""
+    if len(corners) and (corners.min() < 0 or corners.max() >= vertex_count):
+        raise UnreadableError(f"broken: faces point outside its {vertex_count} vertices")
+
+
+def _convex(loops: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Which of the polygons (P, n, 3) turn the same way at every corner; (P,)."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        edges = np.roll(loops, -1, axis=1) - loops
+        turns = np.cross(np.roll(edges, 1, axis=1), edges)
+        normals = _normals(loops)
+        areas = np.einsum("pi,pi->p", normals, normals)
+        reflex = np.einsum("pni,pi->pn", turns, normals) < -_REFLEX * areas[:, None]
+    return np.asarray(~reflex.any(axis=1))
+
+
+def _normals(loops: Floats) -> Floats:
+    """Normals (P, 3) of polygons (P, n, 3), twice the area long."""
+    spokes = loops - loops[:, :1]
+    return np.asarray(np.cross(spokes, np.roll(spokes, -1, axis=1)).sum(axis=1))
+
+
+def _clip_ears(loop: Floats) -> Ints:
+    """Triangles (n - 2, 3) that fill a polygon (n, 3), as indices of its corners."""
+    from manifold3d import triangulate as clip
+
+    normal = _normals(loop[None])[0]
+    across = int(np.argmax(np.abs(normal)))
+    plane = [(across + 1) % 3, (across + 2) % 3]
+    if normal[across] < 0.0:
+        plane.reverse()
+    return np.asarray(clip([np.ascontiguousarray(loop[:, plane])]), dtype=np.int64)

@@ -1,0 +1,205 @@
+"""Where references come from: a folder, a glob, a manifest or a file; each stands for a list of files."""
+
+from __future__ import annotations
+
+import csv
+import difflib
+import glob
+import io
+import os
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeAlias
+
+from shapewright.references.errors import CollectionError
+from shapewright.references.files import EXTENSIONS
+from shapewright.references.orientation import Orientation
+
+Origin: TypeAlias = str | os.PathLike[str]
+_SHAPENET = ("models", "model_normalized.obj")
+_LOOKED_FOR = " ".join(EXTENSIONS)
+_SHOWN = 5
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file to read, the name of its reference, and the axes that point up and to the front in it."""
+
+    name: str
+    path: Path
+    orientation: Orientation
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A file, with the cells of its row where a manifest lists it."""
+
+    path: Path
+    name: str = ""
+    up: str = ""
+    front: str = ""
+
+
+def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> list[Source]:
+    """The files of a collection, in natural order of their names (chair2 before chair10).
+
+    A folder gives the files directly in it or, when none of them is a shape, those of all folders below. A pattern is
+    a glob, ``**`` included. A ``.csv`` file is a manifest: a column ``path``, relative to the manifest, and if wanted
+    ``name``, ``up`` and ``front``; an empty cell leaves the argument in force. Hidden files are passed over, and so are
+    files of other kinds. A name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj``
+    (ShapeNet); where names clash it is the path instead. Raises CollectionError where there is nothing to read.
+    """
+    default = Orientation.of(up, front)
+    if not origins:
+        raise CollectionError("the list of references is empty; give it folders, patterns or files")
+    try:
+        found = [file for origin in origins for file in _expand(Path(origin).expanduser(), alone=len(origins) == 1)]
+    except OSError as error:
+        raise CollectionError(f"cannot look into {error.filename}: {error.strerror}") from error
+    names = _unique([file.name or _stem(file.path) for file in found], [file.path for file in found])
+    sources = [
+        Source(name, file.path, _oriented(file, up, front) if file.up or file.front else default)
+        for name, file in zip(names, found, strict=True)
+    ]
+    return sorted(sources, key=lambda source: natural_key(source.name))
+
+
+def natural_key(name: str) -> tuple[list[int | str], str]:
+    """Sorts numbers inside names by their value, and letters without regard to case."""
+    pieces = re.split(r"(\d+)", name.casefold())
+    return [int(piece) if i % 2 else piece for i, piece in enumerate(pieces)], name
+
+
+def _expand(path: Path, alone: bool) -> list[_Found]:
+    """The files that one origin stands for; a missing or strange file in a list is left for its reader to report."""
+    if path.is_dir():
+        return [_Found(file) for file in _in_folder(path)]
+    if path.suffix.lower() == ".csv" and path.is_file():
+        return _in_manifest(path)
+    if not path.exists() and glob.has_magic(str(path)):
+        return [_Found(file) for file in _in_pattern(path)]
+    if alone and not path.exists():
+        raise CollectionError(f"no such file or folder: {path}{_near(path)}")
+    if alone and not _is_shape(path):
+        raise CollectionError(f"{path} is not a kind of file that is read; {_LOOKED_FOR} and .csv are")
+    return [_Found(path)]
+
+
+def _in_folder(folder: Path) -> list[Path]:
+    direct = [path for path in folder.iterdir() if path.is_file() and _is_shape(path)]
+    if direct:
+        return sorted(direct)
+    below = sorted(_walk(folder))
+    shapes = [path for path in below if _is_shape(path)]
+    if not shapes:
+        raise CollectionError(f"{folder} holds no shapes: looked for {_LOOKED_FOR}, found {_kinds(below)}")
+    return shapes
+
+
+def _walk(folder: Path) -> Iterator[Path]:
+    """Every file below a folder; links to folders are followed, each folder is entered once."""
+    entered: set[str] = set()
+    for root, folders, files in os.walk(folder, onerror=_raise, followlinks=True):
+        folders[:] = sorted(name for name in folders if not _is_hidden(name))
+        if os.path.realpath(root) in entered:
+            folders.clear()
+            continue
+        entered.add(os.path.realpath(root))
+        yield from (Path(root, name) for name in files if not _is_hidden(name))
+
+
+def _raise(error: OSError) -> None:
+    raise error
+
+
+def _in_pattern(pattern: Path) -> list[Path]:
+    # Path.glob takes no absolute pattern.
+    matches = [Path(match) for match in sorted(glob.glob(str(pattern), recursive=True))]  # noqa: PTH207
+    files = [path for path in matches if path.is_file()]
+    shapes = [path for path in files if _is_shape(path)]
+    if not shapes:
+        found = _kinds(files) + ("; it matches folders: add /* to it" if len(matches) > len(files) else "")
+        raise CollectionError(f"{pattern} matches no shapes: looked for {_LOOKED_FOR}, found {found}")
+    return shapes
+
+
+def _in_manifest(manifest: Path) -> list[_Found]:
+    text = manifest.read_text(encoding="utf-8-sig", errors="replace")
+    header, _, _ = text.partition("\n")
+    rows = csv.reader(io.StringIO(text, newline=""), delimiter=max(",;\t", key=header.count))
+    columns = [cell.strip().lower() for cell in next(rows, [])]
+    if "path" not in columns:
+        raise CollectionError(f"{manifest} has no column 'path'; its first line has {', '.join(columns) or 'none'}")
+    found: list[_Found] = []
+    for row in rows:
+        cells = {column: cell.strip() for column, cell in zip(columns, row, strict=False)}
+        if not any(cells.values()):
+            continue
+        if not cells.get("path"):
+            raise CollectionError(f"{manifest}, line {rows.line_num}: no path")
+        file = _Found(manifest.parent / cells["path"], *(cells.get(column, "") for column in ("name", "up", "front")))
+        found.append(file)
+    if not found:
+        raise CollectionError(f"{manifest} lists no files; give each a line with its path")
+    return found
+
+
+def _oriented(file: _Found, up: str, front: str | None) -> Orientation:
+    try:
+        return Orientation.of(file.up or up, file.front or front)
+    except CollectionError as error:
+        raise CollectionError(f"{file.path}, as the manifest lists it: {error}") from error
+
+
+def _stem(path: Path) -> str:
+    return path.parent.parent.name if path.parts[-2:] == _SHAPENET and path.parent.parent.name else path.stem
+
+
+def _unique(names: Sequence[str], paths: Sequence[Path]) -> list[str]:
+    """Names that clash give way to the path, from the deepest folder that holds all files: without its extension,
+    else whole; a file that is listed twice gets a number."""
+    if len(set(names)) == len(names):
+        return list(names)
+    absolute = [path.absolute() for path in paths]
+    common = os.path.commonpath([path.parent for path in absolute])
+    relative = [path.relative_to(common) for path in absolute]
+    without = [path.with_suffix("").as_posix() for path in relative]
+    whole = [path.as_posix() for path in relative]
+    result = list(names)
+    for wider in (without, whole, whole):
+        count = Counter(result)
+        result = [wide if count[name] > 1 else name for name, wide in zip(result, wider, strict=True)]
+    taken: set[str] = set()
+    for i, name in enumerate(result):
+        copies = (f"{name} ({n})" for n in range(2, len(result) + 2))
+        result[i] = name if name not in taken else next(copy for copy in copies if copy not in taken)
+        taken.add(result[i])
+    return result
+
+
+def _is_shape(path: Path) -> bool:
+    return path.suffix.lower() in EXTENSIONS and not _is_hidden(path.name)
+
+
+def _is_hidden(name: str) -> bool:
+    """Hidden files, among them the resource forks that macOS puts beside every file of an archive."""
+    return name.startswith(".") or name == "__MACOSX"
+
+
+def _kinds(paths: Sequence[Path]) -> str:
+    counts = Counter(path.suffix.lower() or "without extension" for path in paths)
+    return ", ".join(f"{count} {kind}" for kind, count in counts.most_common(_SHOWN)) or "no files at all"
+
+
+def _near(path: Path) -> str:
+    """What stands where a path stops existing, nearest names first."""
+    while not path.parent.exists() and path.parent != path:
+        path = path.parent
+    there = sorted(entry.name for entry in path.parent.iterdir()) if path.parent.is_dir() else []
+    near = difflib.get_close_matches(path.name, there, n=3)
+    if near:
+        return f"; did you mean {' or '.join(str(path.parent / name) for name in near)}?"
+    return f"; {path.parent} holds {', '.join(there[:_SHOWN]) or 'nothing'}{', ...' if len(there) > _SHOWN else ''}"

@@ -1,0 +1,95 @@
+"""Folders of runs on disk: numbered, written whole or not at all, never overwritten."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+FORMAT = 1
+RECORD = "iteration.json"
+_STALE_SECONDS = 3600.0
+
+
+class RunError(Exception):
+    """A run's folder cannot be written or read; the message says why and what to do."""
+
+
+@contextmanager
+def new_folder(folder: Path) -> Iterator[Path]:
+    """A hidden folder to write into, which becomes ``folder`` at the end of the block; or vanishes if that fails.
+
+    Raises RunError when ``folder`` holds something already, or the disk cannot be written.
+    """
+    check_free(folder)
+    partial = None
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        _remove_leftovers(folder)
+        partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", suffix=".partial", dir=folder.parent))
+        partial.chmod(0o755)
+        yield partial
+        partial.replace(folder)
+    except OSError as error:
+        raise RunError(f"{folder}: the run cannot be written: {error.strerror or error}") from error
+    finally:
+        if partial:
+            shutil.rmtree(partial, ignore_errors=True)
+
+
+def check_free(folder: Path) -> None:
+    """Raise RunError when there is something at ``folder`` already."""
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise RunError(
+            f"{folder}: there is something here already, and runs are never overwritten; name another folder"
+        )
+
+
+def check_writable(folder: Path) -> None:
+    """Raise RunError when a run could not be written to ``folder``: before an hour of work, not after it."""
+    check_free(folder)
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=folder.parent, prefix=f".{folder.name}.") as probe:
+            probe.write(bytes(4096))
+    except OSError as error:
+        raise RunError(f"{folder}: a run cannot be written here: {error.strerror or error}") from error
+
+
+def runs(root: Path) -> list[Path]:
+    """The folders of whole runs under ``root``, oldest first."""
+    found = [path.parent for path in root.glob(f"*/{RECORD}") if not path.parent.name.startswith(".")]
+    return sorted(found, key=lambda folder: ((folder / RECORD).stat().st_mtime_ns, folder.name))
+
+
+def next_run(root: Path) -> Path:
+    """The folder of the next numbered run: 001, 002, ... after the greatest number there."""
+    taken = [int(path.name) for path in root.glob("*") if re.fullmatch(r"\d+", path.name)]
+    return root / f"{max(taken, default=0) + 1:03d}"
+
+
+def read_record(folder: Path) -> dict[str, Any]:
+    """The record of a run's folder. Raises RunError when there is none, or one of an unknown format."""
+    path = folder / RECORD
+    try:
+        record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise RunError(f"{folder}: no run here ({RECORD} is missing)") from error
+    except (OSError, ValueError) as error:
+        raise RunError(f"{path}: cannot be read: {error}") from error
+    if record.get("format") != FORMAT:
+        raise RunError(f"{path}: format {record.get('format')!r}; this version of shapewright reads {FORMAT}")
+    return record
+
+
+def _remove_leftovers(folder: Path) -> None:
+    """Delete what writers of this folder left that were killed long ago."""
+    for path in folder.parent.glob(f".{folder.name}.*.partial"):
+        if time.time() - path.stat().st_mtime > _STALE_SECONDS:
+            shutil.rmtree(path, ignore_errors=True)

@@ -1,0 +1,157 @@
+import os
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+import shapewright as sw
+from shapewright.building import Limits, Workers, build_all, describe_failures
+
+SOURCE = """
+import os, time
+from typing import Annotated, Literal
+import numpy as np
+from shapewright import Infeasible, Range, procedure
+
+@procedure
+def part(
+    size: Annotated[float, Range(0.5, 1.0, steps=8)] = 0.7,
+    fault: Literal["none", "infeasible", "raises", "nothing", "nan", "endless", "killed", "exits", "memory"] = "none",
+):
+    if fault == "infeasible":
+        raise Infeasible("it does not fit")
+    if fault == "raises":
+        return [][3]
+    if fault == "nothing":
+        return None
+    if fault == "endless":
+        while True:
+            time.sleep(0.01)
+    if fault == "killed":
+        os.kill(os.getpid(), 9)
+    if fault == "exits":
+        os._exit(5)
+    if fault == "memory":
+        np.ones(2 * 10**9)
+    scale = np.nan if fault == "nan" else size
+    return np.eye(3) * scale, [[0, 1, 2]]
+"""
+LIMITS = Limits(seconds=0.5, memory_mb=512)
+FAULTS = {
+    "infeasible": ("infeasible", "it does not fit"),
+    "raises": ("raised", "model.py:15: IndexError: list index out of range  (return [][3])"),
+    "nothing": ("no shape", "it returned nothing (None)"),
+    "nan": ("no shape", "not finite"),
+    "endless": ("time", "it took longer than 0.5 s"),
+    "killed": ("crash", "it killed its process (signal 9)"),
+    "exits": ("crash", "it ended its process (exit status 5)"),
+    "memory": ("memory", "it needed more than 512 MB of memory"),
+}
+
+
+@pytest.fixture
+def part(tmp_path):
+    path = tmp_path / "model.py"
+    path.write_text(SOURCE)
+    return sw.load_procedure(path)
+
+
+def vectors(*faults):
+    return [{"size": 0.5 + 0.01 * i, "fault": fault} for i, fault in enumerate(faults)]
+
+
+def outcome(builds):
+    return [(b.parameters["size"], b.failure or b.shape.vertices.tobytes()) for b in builds]
+
+
+def test_each_fault_costs_its_own_shape_only(part):
+    asked = vectors(*["none"] * 10, *[f for fault in FAULTS for f in (fault, "none")], *["none"] * 100)
+    builds = build_all(part, asked, workers=2, limits=LIMITS)
+    assert [build.parameters for build in builds] == asked
+    for build in builds:
+        fault = build.parameters["fault"]
+        if fault == "none":
+            assert build.failure is None
+            assert np.array_equal(build.shape.vertices, np.eye(3) * build.parameters["size"])
+        else:
+            kind, message = FAULTS[fault]
+            assert build.shape is None and build.failure.kind == kind
+            assert message in build.failure.message
+
+
+def test_results_do_not_depend_on_the_number_of_workers(part):
+    asked = vectors(*["none"] * 8, "raises", "exits", *["none"] * 150)
+    assert outcome(build_all(part, asked, workers=1, limits=LIMITS)) == outcome(
+        build_all(part, asked, workers=3, limits=LIMITS)
+    )
+
+
+def test_a_procedure_that_always_fails_is_given_up_soon(part):
+    with pytest.raises(
+        sw.ProcedureError, match=r"every one of the first 8 shapes failed: 8 x raised.*IndexError.*size="
+    ):
+        build_all(part, vectors(*["raises"] * 500), workers=2, limits=LIMITS)
+    with pytest.raises(sw.ProcedureError, match=r"every one of the first 3 shapes failed: 3 x time: it took longer"):
+        build_all(part, vectors(*["endless"] * 500), workers=2, limits=LIMITS)
+
+
+def test_infeasible_parameters_alone_do_not_give_the_procedure_up(part):
+    builds = build_all(part, vectors(*["infeasible"] * 12, "none"), workers=1, limits=LIMITS)
+    assert sum(build.shape is not None for build in builds) == 1
+
+
+def test_workers_serve_several_requests_and_report_progress(part):
+    told = []
+    with Workers(part, 1, LIMITS) as crew:
+        first = crew.build(vectors(*["none"] * 100), lambda done, total: told.append((done, total)))
+        processes = [worker.process for worker in crew._idle]
+        second = crew.build(vectors("none"))
+        assert [worker.process for worker in crew._idle] == processes
+    assert len(first) == 100 and len(second) == 1 and told[-1] == (100, 100)
+    assert all(process.poll() is not None for process in processes)
+
+
+def test_nothing_asked_nothing_built(part):
+    assert build_all(part, [], workers=1) == []
+
+
+def test_failures_are_described_with_counts_and_parameters(part):
+    builds = build_all(part, vectors("none", "raises", "raises", "nothing"), workers=1, limits=LIMITS)
+    text = describe_failures(builds)
+    assert text.startswith("2 x raised: ") and "for example with size=0.51, fault='raises'; 1 x no shape" in text
+    assert describe_failures(builds[:1]) == "no failures"
+
+
+def test_a_script_needs_no_main_guard(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(
+        textwrap.dedent(
+            """
+            from typing import Annotated
+            import numpy as np
+            from shapewright import Range, procedure
+            from shapewright.building import build_all
+            FACTOR = 3.0
+            print("read")
+
+            @procedure
+            def part(size: Annotated[float, Range(0.5, 1.0)] = 0.7):
+                print("from the author")
+                return np.eye(3) * size * FACTOR, [[0, 1, 2]]
+
+            builds = build_all(part, part.space.sample(20), workers=2)
+            print(sum(b.shape.vertices.max() > 1.4 for b in builds))
+            """
+        )
+    )
+    run = subprocess.run([sys.executable, script], capture_output=True, text=True, env=os.environ, timeout=120)
+    assert run.stdout.split() == ["read", "20"], run.stderr
+    assert "from the author" in run.stderr
+
+
+def test_a_file_that_vanished_is_an_error_of_the_procedure(part):
+    part.path.unlink()
+    with pytest.raises(sw.ProcedureError, match="no such file"):
+        build_all(part, vectors("none"), workers=1, limits=LIMITS)
