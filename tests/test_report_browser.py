@@ -176,6 +176,7 @@ def test_trouble_is_noticed(browser: Browser, tmp_path: Path) -> None:
 def test_opening_a_group_shows_its_members(browser: Browser, report: Path) -> None:
     browser.open(report)
     assert browser.shown(".members .pair") == 0
+    assert browser.ask("document.querySelector('.members').offsetHeight") == 0
     top = browser.ask("document.querySelector('.group').getBoundingClientRect().top + scrollY")
     browser.click("[aria-controls=group-1]")
     assert browser.shown(".members .pair") == 2

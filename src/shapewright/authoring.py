@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import platform
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -26,6 +29,7 @@ from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
 from shapewright.rendering.cameras import THREE_VIEWS
+from shapewright.rendering.raster import available_threads
 from shapewright.results import Result, at_limit
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh
@@ -34,12 +38,17 @@ VERSIONED = ("shapewright", "numpy", "torch", "numba", "manifold3d", "scikit-lea
 
 
 def fit(
-    procedure: Procedure, references: Collection, settings: Settings | None = None, progress: Listener | None = None
+    procedure: Procedure,
+    references: Collection,
+    settings: Settings | None = None,
+    progress: Listener | None = None,
+    cache: Path | None = None,
 ) -> Iteration:
     """One iteration: find parameters for every reference and say which the procedure cannot replicate yet.
 
-    progress: called with a Progress a few times a second; ``print`` will do. The same seed, settings and machine give
-    the same iteration. Raises ProcedureError when the procedure cannot build shapes.
+    progress: called with a Progress a few times a second; ``print`` will do. cache: a folder that keeps the references'
+    descriptors between iterations. The same seed, settings and machine give the same iteration. Raises ProcedureError
+    when the procedure cannot build shapes.
     """
     settings = settings or Settings()
     stages = Stages(progress)
@@ -49,7 +58,7 @@ def fit(
         parameters = predictor.predict([reference.shape for reference in references])
         stages.begin("replicate", len(references))
         builds = crew.build(parameters, stages.step)
-    comparison = _compare(references, builds, settings, stages)
+    comparison = _compare(references, builds, settings, stages, cache)
     results = _results(procedure, references, builds, comparison, settings)
     stages.begin("picture", 1)
     pictures = draw_pictures(results, settings.workers)
@@ -123,25 +132,40 @@ def _train(procedure: Procedure, crew: Workers, settings: Settings, stages: Stag
     return predictor, failures
 
 
-def _compare(references: Collection, builds: Sequence[Build], settings: Settings, stages: Stages) -> _Comparison:
+def _compare(
+    references: Collection, builds: Sequence[Build], settings: Settings, stages: Stages, cache: Path | None
+) -> _Comparison:
     shapes = [reference.shape for reference in references]
-    built = [i for i, build in enumerate(builds) if isinstance(build.shape, Mesh)]
-    replicas = [build.shape for build in builds if isinstance(build.shape, Mesh)]
     stages.begin("compare", len(shapes))
-    descriptors = light_field.descriptors([*shapes, *replicas], threads=settings.workers)
-    theirs, ours = descriptors[: len(shapes)], descriptors[len(shapes) :]
+    theirs = _descriptors(shapes, settings.workers, cache)
+    ours = _descriptors([build.shape if isinstance(build.shape, Mesh) else None for build in builds], settings.workers)
     distance, iou, surface = (np.full(len(shapes), np.nan) for _ in range(3))
-    distance[built] = [
-        light_field.distance(theirs[i], mine, align=settings.align) for i, mine in zip(built, ours, strict=True)
-    ]
-    iou[built] = intersection_over_union([shapes[i] for i in built], replicas, threads=settings.workers)
-    surface[built] = [chamfer(shapes[i], mine, seed=settings.seed) for i, mine in zip(built, replicas, strict=True)]
-    misfits = [i for i in range(len(shapes)) if not distance[i] <= settings.threshold]
+    for i, (their, our, build) in enumerate(zip(theirs, ours, builds, strict=True)):
+        if their and our and isinstance(build.shape, Mesh):
+            distance[i] = light_field.distance(their, our, align=settings.align)
+            surface[i] = chamfer(shapes[i], build.shape, seed=settings.seed)
+            (iou[i],) = intersection_over_union([shapes[i]], [build.shape], threads=1)
+        stages.step(i + 1, len(shapes))
+    misfits = [(i, their) for i, their in enumerate(theirs) if their and not distance[i] <= settings.threshold]
     stages.begin("group", len(misfits))
-    between = light_field.distances([theirs[i] for i in misfits], align=settings.align, threads=settings.workers)
-    names = [references.names[i] for i in misfits]
-    groups = group(names, between, settings.cut, settings.cut_absolute)
+    between = light_field.distances([their for _, their in misfits], align=settings.align, threads=settings.workers)
+    groups = group([references.names[i] for i, _ in misfits], between, settings.cut, settings.cut_absolute)
     return _Comparison(distance.tolist(), iou.tolist(), surface.tolist(), groups)
+
+
+def _descriptors(
+    shapes: Sequence[Mesh | None], threads: int | None, cache: Path | None = None
+) -> list[light_field.Descriptor | None]:
+    """None where there is no mesh, or one so thin that no view shows it."""
+
+    def describe(mesh: Mesh | None) -> light_field.Descriptor | None:
+        try:
+            return light_field.descriptor(mesh, cache=cache) if mesh else None
+        except ValueError:
+            return None
+
+    with ThreadPoolExecutor(threads or available_threads()) as pool:
+        return list(pool.map(describe, shapes))
 
 
 def _results(
@@ -159,7 +183,7 @@ def _results(
             path=reference.path,
             parameters=build.parameters,
             active=procedure.space.active(build.parameters),
-            at_limit=at_limit(procedure.space, build.parameters),
+            at_limit=at_limit(procedure.space, build.parameters) if isinstance(build.shape, Mesh) else (),
             replica=build.shape if isinstance(build.shape, Mesh) else None,
             distance=distance,
             iou=iou,
@@ -167,10 +191,16 @@ def _results(
             compatible=distance <= settings.threshold,
             group=group_of.get(reference.name),
             reference=reference.shape,
-            error=f"{build.failure.kind}: {build.failure.message}" if build.failure else None,
+            error=_error(build, distance),
         )
         for reference, build, (distance, iou, surface) in zip(references, builds, measures, strict=True)
     )
+
+
+def _error(build: Build, distance: float) -> str | None:
+    if build.failure:
+        return f"{build.failure.kind}: {build.failure.message}"
+    return "so thin that no view shows it: it cannot be compared" if math.isnan(distance) else None
 
 
 def _limits(settings: Settings) -> Limits:

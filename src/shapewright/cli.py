@@ -14,7 +14,7 @@ from rich.markup import escape
 from shapewright.procedure import ProcedureError, load_procedure
 from shapewright.references.errors import CollectionError
 from shapewright.settings import Settings
-from shapewright.workspace import RunError, check_writable, next_run, read_record, runs
+from shapewright.workspace import RunError, cache_folder, check_writable, next_run, read_record, runs
 
 if TYPE_CHECKING:
     from shapewright.iteration import Iteration
@@ -206,7 +206,7 @@ def _fit(procedure: Procedure, references: Collection, settings: Settings, folde
 
     try:
         with progress_bars(err) as listen:
-            iteration = iterate(procedure, references, settings, listen)
+            iteration = iterate(procedure, references, settings, listen, cache_folder())
     except KeyboardInterrupt:
         err.print("stopped: nothing of this run was written; earlier runs are as they were")
         raise typer.Exit(130) from None

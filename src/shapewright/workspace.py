@@ -1,8 +1,9 @@
-"""Folders of runs on disk: numbered, written whole or not at all, never overwritten."""
+"""Folders of runs on disk: numbered, written whole or not at all, never overwritten; and the folder for caches."""
 
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import tempfile
@@ -28,19 +29,20 @@ def new_folder(folder: Path) -> Iterator[Path]:
     Raises RunError when ``folder`` holds something already, or the disk cannot be written.
     """
     check_free(folder)
-    partial = None
+    around = None
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         _remove_leftovers(folder)
-        partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", suffix=".partial", dir=folder.parent))
-        partial.chmod(0o755)
+        around = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", suffix=".partial", dir=folder.parent))
+        partial = around / folder.name
+        partial.mkdir()
         yield partial
         partial.replace(folder)
     except OSError as error:
-        raise RunError(f"{folder}: the run cannot be written: {error.strerror or error}") from error
+        raise RunError(f"{folder}: cannot be written: {error.strerror or error}; nothing was left there") from error
     finally:
-        if partial:
-            shutil.rmtree(partial, ignore_errors=True)
+        if around:
+            shutil.rmtree(around, ignore_errors=True)
 
 
 def check_free(folder: Path) -> None:
@@ -86,6 +88,20 @@ def read_record(folder: Path) -> dict[str, Any]:
     if record.get("format") != FORMAT:
         raise RunError(f"{path}: format {record.get('format')!r}; this version of shapewright reads {FORMAT}")
     return record
+
+
+def cache_folder() -> Path | None:
+    """Where descriptors of references are kept between runs, or None when it cannot be written.
+
+    SHAPEWRIGHT_CACHE, else the user's folder for caches.
+    """
+    home = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".cache"
+    folder = Path(os.environ.get("SHAPEWRIGHT_CACHE") or Path(home) / "shapewright")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return folder if os.access(folder, os.W_OK) else None
 
 
 def _remove_leftovers(folder: Path) -> None:

@@ -112,7 +112,8 @@ def pedestal(p: Plan) -> list[Solid]:
 def tripod(p: Plan, feet: int = 3) -> list[Solid]:
     column = cone((p.leg, p.under * 0.85, p.leg), at=(0, p.under * 0.575, 0), top=0.7, segments=16)
     foot = box((p.width * 0.38, p.leg * 0.6, p.leg * 0.5), at=(p.width * 0.17, p.height * 0.1, 0))
-    return [column, foot.rotate(-18, "z", about=(0, p.height * 0.16, 0)).polar_array(feet)]
+    foot = foot.rotate(-18, "z")
+    return [column, foot.translate((0, -foot.bounds[0, 1], 0)).polar_array(feet)]
 
 
 def trestle(p: Plan) -> list[Solid]:
@@ -189,7 +190,6 @@ def tables() -> dict[str, list[Solid]]:
         "round-chunky": table(Plan(90, 58, 90, top=12, leg=16, spread=0.7), disc, legs),
         "oval": table(Plan(140, 74, 92, top=5, leg=7, spread=0.7), disc, legs),
         "oval-narrow": table(Plan(120, 80, 55, top=6, leg=6, spread=0.7), disc, legs),
-        "stadium": table(Plan(126, 72, 76, top=5, leg=6, spread=0.72), stadium, legs),
         "workbench": table(Plan(140, 86, 70, top=8, leg=9), slab, legs, stretchers),
         "refectory": table(Plan(150, 80, 76, top=5, leg=8), slab, legs, stretchers),
         "counter": table(Plan(100, 95, 62, top=6, leg=6), slab, legs, stretchers),
@@ -209,7 +209,6 @@ def tables() -> dict[str, list[Solid]]:
         "cross-stretchers": table(Plan(100, 74, 76, top=5, leg=6), slab, legs, cross),
         "octagon-cross": table(Plan(90, 70, 90, top=5, leg=6, spread=0.62), octagon, turned_legs, cross),
         "shelf": table(Plan(110, 55, 60, top=5, leg=6), slab, legs, shelf),
-        "shelf-island": table(Plan(120, 90, 70, top=6, leg=8), slab, legs, apron, shelf),
         "shelf-tiers": table(Plan(60, 58, 44, top=4, leg=4), slab, legs, shelf, partial(shelf, level=0.55)),
         "twin-drawers": table(Plan(150, 75, 72, top=4, leg=5), slab, drawers),
         "partners-desk": table(Plan(140, 76, 84, top=6, leg=5), slab, partial(drawers, part=0.34)),
@@ -220,5 +219,7 @@ def tables() -> dict[str, list[Solid]]:
         "chest": table(Plan(100, 50, 56, top=5, leg=5, spread=0.94), slab, block),
         "cube": table(Plan(50, 48, 50, top=4, leg=4), slab, block),
         "sawbuck": table(Plan(140, 76, 80, top=5, leg=7, spread=0.8), slab, sawbuck),
+        "picnic": table(Plan(124, 74, 88, top=6, leg=9, spread=0.9), slab, sawbuck),
         "tripod": table(Plan(80, 74, 80, top=4, leg=10), disc, tripod),
+        "claw-foot": table(Plan(100, 75, 100, top=5, leg=13), disc, partial(tripod, feet=4)),
     }

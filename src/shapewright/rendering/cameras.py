@@ -38,7 +38,7 @@ class Camera:
 
 
 THREE_VIEWS = (Camera(35.0, 25.0), Camera(0.0, 5.0), Camera(90.0, 15.0))
-THUMBNAIL = Camera(35.0, 25.0, distance=3.6, field_of_view=24.0)
+THUMBNAIL = Camera(35.0, 25.0, distance=3.6, field_of_view=27.5)
 
 
 def pack(cameras: Sequence[Camera]) -> NDArray[np.float64]:

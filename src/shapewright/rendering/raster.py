@@ -68,12 +68,28 @@ def _draw(
     inverse_depth = np.empty((side, side), dtype=np.float32)
     projected = np.empty((len(vertices), 3))
     for c in range(len(cameras)):
-        shade[:] = 0.0
-        inverse_depth[:] = 0.0
-        _project(vertices, cameras[c], side, projected)
-        for f in range(len(faces)):
-            _triangle(vertices, projected, faces[f, 0], faces[f, 1], faces[f, 2], cameras[c], shade, inverse_depth)
+        draw_view(vertices, faces, cameras[c], projected, shade, inverse_depth)
         _resolve(shade, inverse_depth, cameras[c, 9], supersample, images[c])
+
+
+@njit(nogil=True, cache=True)
+def draw_view(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int64],
+    camera: NDArray[np.float64],
+    projected: NDArray[np.float64],
+    shade: NDArray[np.float32],
+    inverse_depth: NDArray[np.float32],
+) -> None:
+    """One view into buffers (S, S): shading, AMBIENT to 1, and one over the distance along the view; 0 where empty.
+
+    camera: a row of ``cameras.pack``. projected: (V, 3), room to work in.
+    """
+    shade[:] = 0.0
+    inverse_depth[:] = 0.0
+    _project(vertices, camera, len(shade), projected)
+    for f in range(len(faces)):
+        _triangle(vertices, projected, faces[f, 0], faces[f, 1], faces[f, 2], camera, shade, inverse_depth)
 
 
 @njit(nogil=True, cache=True)

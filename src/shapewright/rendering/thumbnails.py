@@ -6,20 +6,16 @@ import io
 import math
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 from PIL import Image
 
 from shapewright.rendering.cameras import THUMBNAIL, pack
-from shapewright.rendering.raster import AMBIENT, _project, _triangle, available_threads
+from shapewright.rendering.raster import AMBIENT, available_threads, draw_view
 from shapewright.shapes import Mesh
 
-# The lowest corner of the unit cube is outside the narrower view of THUMBNAIL.
-CAMERA = replace(THUMBNAIL, field_of_view=27.5)
 SUPERSAMPLE = 3
 # Edges are drawn where the surface bends by more than this angle (rounded parts of 12 sides and more stay clean), and
 # where one part stands in front of another by more than this length.
@@ -31,39 +27,35 @@ _DARKEST, _INK = 0.42, 0.4
 _GREYS = 32
 
 
-def thumbnail(mesh: Mesh, size: int = 192) -> bytes:
+def thumbnail(mesh: Mesh, size: int = 256) -> bytes:
     """A picture of a mesh as PNG bytes: grey and alpha, size x size pixels, seen from the right and a little above.
 
     The mesh is normalised first, so that the whole of it is in the picture whatever its size and place.
     Raises ValueError for a mesh without faces or of no size.
     """
     normalised = mesh.normalised()
+    camera = pack([THUMBNAIL])[0]
+    side = size * SUPERSAMPLE
+    shade, inverse_depth = np.empty((2, side, side), dtype=np.float32)
+    draw_view(normalised.vertices, normalised.faces, camera, np.empty_like(normalised.vertices), shade, inverse_depth)
     picture = np.empty((size, size, 2), dtype=np.uint8)
-    _draw(normalised.vertices, normalised.faces, pack([CAMERA])[0], picture)
+    _ink(shade, inverse_depth, 2.0 / (side * camera[10]), picture)
     buffer = io.BytesIO()
     Image.fromarray(picture).save(buffer, "PNG")
     return buffer.getvalue()
 
 
-def thumbnails(meshes: Sequence[Mesh], size: int = 192, threads: int | None = None) -> list[bytes]:
+def thumbnails(meshes: Sequence[Mesh], size: int = 256, threads: int | None = None) -> list[bytes]:
     """``thumbnail`` of each mesh, in order; the bytes do not depend on the number of threads."""
     with ThreadPoolExecutor(threads or available_threads()) as pool:
         return list(pool.map(lambda mesh: thumbnail(mesh, size), meshes))
 
 
 @njit(nogil=True, cache=True)
-def _draw(
-    vertices: NDArray[np.float64], faces: NDArray[np.int64], camera: NDArray[np.float64], picture: NDArray[np.uint8]
-) -> None:
-    side = picture.shape[0] * SUPERSAMPLE
-    shade = np.zeros((side, side), dtype=np.float32)
-    inverse_depth = np.zeros((side, side), dtype=np.float32)
-    projected = np.empty((len(vertices), 3))
-    _project(vertices, camera, side, projected)
-    for f in range(len(faces)):
-        _triangle(vertices, projected, faces[f, 0], faces[f, 1], faces[f, 2], camera, shade, inverse_depth)
+def _ink(shade: Any, inverse_depth: Any, pixel: float, picture: Any) -> None:
+    """Draw the edges over the shading. pixel: size of a sample at distance 1."""
+    side = len(shade)
     ink = np.zeros((side, side), dtype=np.bool_)
-    pixel = 2.0 / (side * camera[10])
     for i in range(1, side - 2):
         for j in range(1, side - 2):
             w = inverse_depth
