@@ -33,7 +33,7 @@ def iteration():
     told = []
     it = sw.fit(stool, references(), SETTINGS, progress=told.append)
     stages = list(dict.fromkeys(event.stage for event in told))
-    assert stages == ["sample", "render", "train", "predict", "replicate", "compare", "group", "picture"]
+    assert stages == "sample render train describe predict replicate refine compare picture".split()
     assert list(it.seconds) == stages and all(event.done <= event.total for event in told)
     return it
 

@@ -6,30 +6,27 @@ import hashlib
 import math
 import platform
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shapewright.building import Build, Limits, Workers, describe_failures
-from shapewright.comparison import light_field
-from shapewright.comparison.grouping import Group, group
-from shapewright.comparison.silhouettes import intersection_over_union
-from shapewright.comparison.surfaces import chamfer
+from shapewright.comparison.grouping import Group
 from shapewright.iteration import Iteration, draw_pictures
+from shapewright.judge import Judge
 from shapewright.parameters import Parameter, Scalar
 from shapewright.prediction.dataset import make_dataset, meshes_of, split
 from shapewright.prediction.predictor import Predictor
+from shapewright.prediction.refinement import QUICK, THOROUGH, refine
 from shapewright.prediction.training import Epoch, Schedule, measure, train_network
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
 from shapewright.rendering.cameras import THREE_VIEWS
-from shapewright.rendering.raster import available_threads
 from shapewright.results import Result, at_limit
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh
@@ -54,18 +51,20 @@ def fit(
     stages = Stages(progress)
     with Workers(procedure, settings.workers, _limits(settings)) as crew:
         predictor, failures = _train(procedure, crew, settings, stages)
+        stages.begin("describe", len(references))
+        judge = Judge.of(references, settings, cache)
         stages.begin("predict", len(references))
-        parameters = predictor.predict([reference.shape for reference in references])
-        stages.begin("replicate", len(references))
-        builds = crew.build(parameters, stages.step)
-    comparison = _compare(references, builds, settings, stages, cache)
-    results = _results(procedure, references, builds, comparison, settings)
+        inferred = predictor.infer([reference.shape for reference in references])
+        builds, distances = _replicate(procedure, crew, judge, predictor, inferred, settings, stages)
+    stages.begin("compare", len(references))
+    groups = judge.groups(distances)
+    results = _results(procedure, references, builds, distances, judge.overlaps(builds), groups, settings.threshold)
     stages.begin("picture", 1)
     pictures = draw_pictures(results, settings.workers)
     stages.end()
     return Iteration(
         results=results,
-        groups=comparison.groups,
+        groups=groups,
         settings=settings,
         seconds=stages.seconds,
         procedure=_describe(procedure),
@@ -98,21 +97,11 @@ def train(procedure: Procedure, settings: Settings | None = None, progress: List
     return predictor
 
 
-@dataclass(frozen=True, eq=False)
-class _Comparison:
-    """By reference: distance, IoU, Chamfer (NaN where nothing was built); and the groups of the incompatible ones."""
-
-    distance: Sequence[float]
-    iou: Sequence[float]
-    chamfer: Sequence[float]
-    groups: tuple[Group, ...]
-
-
 def _train(procedure: Procedure, crew: Workers, settings: Settings, stages: Stages) -> tuple[Predictor, dict[str, Any]]:
     space = procedure.space
     vectors = space.sample(settings.samples, seed=settings.seed)
     stages.begin("sample", len(vectors))
-    builds = crew.build(vectors, stages.step)
+    builds = crew.build(vectors, stages.step, give_up=True)
     good, meshes = meshes_of(builds)
     stages.begin("render", len(meshes))
     parameters = [build.parameters for build in good]
@@ -132,51 +121,41 @@ def _train(procedure: Procedure, crew: Workers, settings: Settings, stages: Stag
     return predictor, failures
 
 
-def _compare(
-    references: Collection, builds: Sequence[Build], settings: Settings, stages: Stages, cache: Path | None
-) -> _Comparison:
-    shapes = [reference.shape for reference in references]
-    stages.begin("compare", len(shapes))
-    theirs = _descriptors(shapes, settings.workers, cache)
-    ours = _descriptors([build.shape if isinstance(build.shape, Mesh) else None for build in builds], settings.workers)
-    distance, iou, surface = (np.full(len(shapes), np.nan) for _ in range(3))
-    for i, (their, our, build) in enumerate(zip(theirs, ours, builds, strict=True)):
-        if their and our and isinstance(build.shape, Mesh):
-            distance[i] = light_field.distance(their, our, align=settings.align)
-            surface[i] = chamfer(shapes[i], build.shape, seed=settings.seed)
-            (iou[i],) = intersection_over_union([shapes[i]], [build.shape], threads=1)
-        stages.step(i + 1, len(shapes))
-    misfits = [(i, their) for i, their in enumerate(theirs) if their and not distance[i] <= settings.threshold]
-    stages.begin("group", len(misfits))
-    between = light_field.distances([their for _, their in misfits], align=settings.align, threads=settings.workers)
-    groups = group([references.names[i] for i, _ in misfits], between, settings.cut, settings.cut_absolute)
-    return _Comparison(distance.tolist(), iou.tolist(), surface.tolist(), groups)
-
-
-def _descriptors(
-    shapes: Sequence[Mesh | None], threads: int | None, cache: Path | None = None
-) -> list[light_field.Descriptor | None]:
-    """None where there is no mesh, or one so thin that no view shows it."""
-
-    def describe(mesh: Mesh | None) -> light_field.Descriptor | None:
-        try:
-            return light_field.descriptor(mesh, cache=cache) if mesh else None
-        except ValueError:
-            return None
-
-    with ThreadPoolExecutor(threads or available_threads()) as pool:
-        return list(pool.map(describe, shapes))
+def _replicate(
+    procedure: Procedure,
+    crew: Workers,
+    judge: Judge,
+    predictor: Predictor,
+    inferred: Sequence[NDArray[np.float32]],
+    settings: Settings,
+    stages: Stages,
+) -> tuple[list[Build], NDArray[np.float64]]:
+    """The replica of each reference, predicted or refined, whichever is nearer; and its distance."""
+    stages.begin("replicate", 1)
+    builds = crew.build(predictor.decode(inferred))
+    distances = judge.distances(builds)
+    if settings.refine == "off":
+        return builds, distances
+    stages.begin("refine", 1)
+    budget = QUICK if settings.refine == "quick" else THOROUGH
+    vectors = refine(procedure.space, inferred, crew, judge.search_costs, budget, settings.seed, stages.step)
+    refined = crew.build(vectors)
+    nearer = judge.distances(refined)
+    chosen = ~(nearer >= distances)
+    best = [new if better else old for new, old, better in zip(refined, builds, chosen, strict=True)]
+    return best, np.where(chosen, nearer, distances)
 
 
 def _results(
     procedure: Procedure,
     references: Collection,
     builds: Sequence[Build],
-    comparison: _Comparison,
-    settings: Settings,
+    distances: NDArray[np.float64],
+    overlaps: tuple[NDArray[np.float64], NDArray[np.float64]],
+    groups: Sequence[Group],
+    threshold: float,
 ) -> tuple[Result, ...]:
-    group_of = {name: i for i, found in enumerate(comparison.groups) for name in found.members}
-    measures = zip(comparison.distance, comparison.iou, comparison.chamfer, strict=True)
+    group_of = {name: i for i, found in enumerate(groups) for name in found.members}
     return tuple(
         Result(
             name=reference.name,
@@ -185,15 +164,15 @@ def _results(
             active=procedure.space.active(build.parameters),
             at_limit=at_limit(procedure.space, build.parameters) if isinstance(build.shape, Mesh) else (),
             replica=build.shape if isinstance(build.shape, Mesh) else None,
-            distance=distance,
-            iou=iou,
-            chamfer=surface,
-            compatible=distance <= settings.threshold,
+            distance=float(distance),
+            iou=float(iou),
+            chamfer=float(surface),
+            compatible=bool(distance <= threshold),
             group=group_of.get(reference.name),
             reference=reference.shape,
             error=_error(build, distance),
         )
-        for reference, build, (distance, iou, surface) in zip(references, builds, measures, strict=True)
+        for reference, build, distance, iou, surface in zip(references, builds, distances, *overlaps, strict=True)
     )
 
 

@@ -62,6 +62,9 @@ def fit(
     preset: Annotated[Literal["fast"], typer.Option(help="How to predict: fast is made for laptops.")] = "fast",
     samples: Annotated[int, typer.Option(min=20, help="Parameter vectors to learn from.")] = Settings.samples,
     epochs: Annotated[int, typer.Option(min=1, help="Passes over them.")] = Settings.epochs,
+    refine: Annotated[
+        Literal["off", "quick", "thorough"], typer.Option(help="Search for better parameters from the predicted ones.")
+    ] = "quick",
     threshold: Annotated[float, typer.Option(help="Largest distance of a compatible reference.")] = Settings.threshold,
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
@@ -84,6 +87,7 @@ def fit(
         seed=seed,
         samples=samples,
         epochs=epochs,
+        refine=refine,
         threshold=threshold,
         align=align,
         shape_seconds=time_limit,

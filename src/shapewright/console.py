@@ -24,10 +24,11 @@ _DOING = {
     "sample": "building samples",
     "render": "rendering",
     "train": "training",
+    "describe": "describing",
     "predict": "predicting",
     "replicate": "building replicas",
+    "refine": "refining",
     "compare": "comparing",
-    "group": "grouping",
     "picture": "drawing pictures",
 }
 

@@ -11,7 +11,8 @@ class Settings:
     """How an iteration runs.
 
     seed: of everything random. samples: parameter vectors drawn from the space. epochs, batch, learning_rate: training.
-    image_size: pixels of a view, a multiple of 16. threshold: the largest normalised light-field distance of a
+    image_size: pixels of a view, a multiple of 16. refine: how long to search for better parameters from the predicted
+    ones, by the judge's measure. threshold: the largest normalised light-field distance of a
     compatible reference (paper: 0.18). cut: groups are merged up to this share of the largest distance between
     incompatible references (paper: 0.4), or up to this distance itself when cut_absolute. align: "free" compares in
     all rotations as the paper does, "upright" about the up axis only. shape_seconds, shape_memory_mb: what building
@@ -24,6 +25,7 @@ class Settings:
     batch: int = 64
     learning_rate: float = 2e-3
     image_size: int = 64
+    refine: Literal["off", "quick", "thorough"] = "quick"
     threshold: float = 0.18
     cut: float = 0.4
     cut_absolute: bool = False

@@ -53,16 +53,20 @@ class Workers:
         self._idle.clear()
 
     def build(
-        self, parameters: Sequence[Parameters], progress: Callable[[int, int], None] | None = None
+        self,
+        parameters: Sequence[Parameters],
+        progress: Callable[[int, int], None] | None = None,
+        give_up: bool = False,
     ) -> list[Build]:
         """Build every vector. A failure costs its own shape only.
 
-        Raises ProcedureError when the first shapes all fail for another reason than Infeasible (3 that exceed the time
-        limit, or 8 of any kind): then the procedure itself is broken, and building thousands would only say so later.
+        give_up: raise ProcedureError when the first shapes all fail for another reason than Infeasible (3 that exceed
+        the time limit, or 8 of any kind): then the procedure itself is broken, and thousands more would only say so
+        later.
         """
         results: list[Build | None] = [None] * len(parameters)
         done = 0
-        for count in _PROBES:
+        for count in _PROBES if give_up else ():
             probes = range(done, min(count, len(parameters)))
             self._run(parameters, [probes[i : i + 1] for i in range(len(probes))], results, None)
             done = max(done, probes.stop)
@@ -157,9 +161,9 @@ def build_all(
     limits: Limits | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Build]:
-    """Build a shape for each parameter vector, in order (see Workers.build)."""
+    """Build a shape for each parameter vector, in order; gives a broken procedure up (see Workers.build)."""
     with Workers(procedure, workers, limits) as crew:
-        return crew.build(parameters, progress)
+        return crew.build(parameters, progress, give_up=True)
 
 
 def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:

@@ -1,5 +1,6 @@
-"""The outer contour of a silhouette, as the original light field descriptor traces it (Chen et al. 2003, its program).
+"""Contour coefficients of silhouettes: the Fourier transform of the outer contour's distance from the middle.
 
+Chen et al. 2003, section 4.2, and the program of its authors, whose walk along the contour is followed step by step.
 An image is a flattened (256 x 256) uint8 array of 0 and 1 with at least ``MARGIN`` empty pixels along every border; a
 pixel is an index of it, a step an offset, and "down" leads to the next row. A box is (first row, row after the last,
 first column, column after the last) of the foreground.
@@ -7,19 +8,25 @@ first column, column after the last) of the foreground.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from shapewright.rendering.silhouettes_raster import SIZE
+
 Bytes = NDArray[np.uint8]
 Pixels = NDArray[np.int32]
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 Box = tuple[int, int, int, int]
 
-SIZE = 256
+FOURIER = 10
+"""Coefficients of a contour."""
 MARGIN = 6
 """Two dilations reach 3 pixels outwards, the flood 2 more, and a step of the walk looks one further."""
-LONGEST = 4 * SIZE * SIZE
-"""A walk that passes more pixels than there are pairs of a pixel and a direction repeats itself for ever."""
+_LONGEST = 4 * SIZE * SIZE  # a walk through more pairs of a pixel and a direction than there are repeats itself
 
 _DOWN, _RIGHT, _UP, _LEFT = SIZE, 1, -SIZE, -1
 _SIDES = (_DOWN, _RIGHT, _UP, _LEFT)
@@ -40,11 +47,27 @@ _FREE, _WALL, _OUTSIDE = 0, 1, 2
 
 
 @njit(nogil=True, cache=True)
-def outer_contour(image: Bytes, box: Box, contour: Pixels, marks: Bytes, stack: Pixels) -> int:
+def contour_coefficients(images: Bytes, boxes: Ints, fourier: Floats) -> None:
+    """Magnitudes 1 to 10 over magnitude 0 (V, 10) for V silhouettes (V, 256, 256) and their boxes (V, 4).
+
+    0 for a silhouette of no pixels, and for a contour of fewer than eight.
+    """
+    contour = np.empty(_LONGEST, np.int32)
+    marks, stack = np.empty(SIZE * SIZE, np.uint8), np.empty(SIZE * SIZE, np.int32)
+    fourier[:] = 0.0
+    for v in range(len(images)):
+        box = (boxes[v, 0], boxes[v, 1], boxes[v, 2], boxes[v, 3])
+        if box[0] < box[1]:
+            count = _outer_contour(images[v].ravel(), box, contour, marks, stack)
+            _transform(contour[:count], 0.5 * (box[0] + box[1] - 1), 0.5 * (box[2] + box[3] - 1), fourier[v])
+
+
+@njit(nogil=True, cache=True)
+def _outer_contour(image: Bytes, box: Box, contour: Pixels, marks: Bytes, stack: Pixels) -> int:
     """Write the pixels of the closed outer contour to ``contour`` and return how many; the start is counted twice.
 
     Several parts are first joined: dilated, at most twice, or replaced by their bounding box, then thinned again.
-    contour: (LONGEST,); marks and stack: scratch of the image's size. The image must not be empty.
+    marks and stack are scratch of the image's size.
     """
     count = _trace(image, box, contour)
     if _encloses(image, box, contour[:count], marks, stack):
@@ -80,7 +103,7 @@ def _trace(image: Bytes, box: Box, contour: Pixels) -> int:
     )
     contour[0] = start
     count, pixel, direction = 1, start, 0
-    while count < LONGEST:
+    while count < _LONGEST:
         choice, turns = 0, 0
         while image[pixel + _AHEAD[direction, choice]] == 0:
             choice += 1
@@ -104,7 +127,7 @@ def _encloses(image: Bytes, box: Box, contour: Pixels, marks: Bytes, stack: Pixe
     """Whether nearly all of the foreground is out of reach for a 4-connected flood from outside the contour."""
     first, last, left, right = box[0] - 2, box[1] + 1, box[2] - 2, box[3] + 1
     for row in range(first, last + 1):
-        marks[row * SIZE + left : row * SIZE + right + 1] = _WALL if row == first or row == last else _FREE
+        marks[row * SIZE + left : row * SIZE + right + 1] = _WALL if row in (first, last) else _FREE
         marks[row * SIZE + left] = _WALL
         marks[row * SIZE + right] = _WALL
     for pixel in contour:
@@ -175,3 +198,26 @@ def _is_removable(image: Bytes, pixel: int) -> bool:
         if side and not (corner and image[pixel + _RING[(k + 2) % 8]]):
             parts += 1
     return parts <= 1 and neighbours != 1
+
+
+@njit(nogil=True, cache=True)
+def _transform(contour: Pixels, row: float, column: float, fourier: Floats) -> None:
+    count = len(contour)
+    if count < 8:
+        return
+    real, imaginary = np.zeros(FOURIER), np.zeros(FOURIER)
+    cosine, sine = np.ones(FOURIER), np.zeros(FOURIER)
+    turn = 2.0 * math.pi / count * np.arange(1, FOURIER + 1)
+    turn_cosine, turn_sine = np.cos(turn), np.sin(turn)
+    total = 0.0
+    for pixel in contour:
+        distance = math.sqrt((pixel // SIZE - row) ** 2 + (pixel % SIZE - column) ** 2)
+        total += distance
+        for k in range(FOURIER):
+            real[k] += distance * cosine[k]
+            imaginary[k] += distance * sine[k]
+            along = cosine[k] * turn_cosine[k] - sine[k] * turn_sine[k]
+            sine[k] = sine[k] * turn_cosine[k] + cosine[k] * turn_sine[k]
+            cosine[k] = along
+    for k in range(FOURIER):
+        fourier[k] = math.hypot(real[k], imaginary[k]) / total

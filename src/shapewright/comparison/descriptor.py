@@ -6,17 +6,16 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from shapewright.comparison.coefficients import ART, BASIS, CELLS, FOURIER, light_field_coefficients, quantise
+from shapewright.comparison.coefficients import COEFFICIENTS, coefficients, quantise
+from shapewright.comparison.contours import FOURIER
 from shapewright.comparison.dodecahedra import LIGHT_FIELDS, VIEWS, directions
-from shapewright.rendering.silhouettes_raster import SIZE, fill_triangles, project, view_axes
+from shapewright.comparison.regions import ART
+from shapewright.rendering.silhouettes_raster import SIZE, draw, view_axes
 from shapewright.shapes import Mesh
 
 Bytes = NDArray[np.uint8]
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _AXES = view_axes(directions())
 
@@ -61,31 +60,12 @@ def describe(mesh: Mesh, bits: int = 4) -> Descriptor:
         raise ValueError(
             "a mesh of this size cannot be normalised; its coordinates are too large or too close together"
         )
-    art = np.empty((LIGHT_FIELDS, VIEWS, ART))
-    fourier = np.empty((LIGHT_FIELDS, VIEWS, FOURIER))
-    others = np.empty((LIGHT_FIELDS, VIEWS, 2))
-    _describe(transform.apply(mesh.vertices), mesh.faces, _AXES, CELLS, BASIS, art, fourier, others)
-    if not art.any():
+    vertices = transform.apply(mesh.vertices)
+    values = np.empty((LIGHT_FIELDS, VIEWS, COEFFICIENTS))
+    images = np.empty((VIEWS, SIZE, SIZE), dtype=np.uint8)
+    for axes, of_light_field in zip(_AXES, values, strict=True):
+        draw(vertices, mesh.faces, axes, images)
+        of_light_field[:] = coefficients(images)
+    if not values.any():
         raise ValueError("no view shows a pixel of the mesh: its triangles have no area to speak of")
-    return Descriptor.of(np.concatenate(quantise(art, fourier, others, bits), axis=-1), bits)
-
-
-@njit(nogil=True, cache=True)
-def _describe(
-    vertices: Floats,
-    faces: Ints,
-    axes: Floats,
-    cells: Ints,
-    basis: Floats,
-    art: Floats,
-    fourier: Floats,
-    others: Floats,
-) -> None:
-    images = np.empty((VIEWS, SIZE, SIZE), np.uint8)
-    columns, rows = np.empty(len(vertices)), np.empty(len(vertices))
-    for i in range(LIGHT_FIELDS):
-        images[:] = 0
-        for m in range(VIEWS):
-            project(vertices, axes[i, m], columns, rows)
-            fill_triangles(columns, rows, faces, images[m])
-        light_field_coefficients(images, cells, basis, art[i], fourier[i], others[i])
+    return Descriptor.of(quantise(values, bits), bits)

@@ -13,21 +13,22 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from shapewright.comparison.coefficients import ART, FOURIER
+from shapewright.comparison.coefficients import COEFFICIENTS
+from shapewright.comparison.contours import FOURIER
 from shapewright.comparison.dodecahedra import LIGHT_FIELDS, VIEWS
+from shapewright.comparison.regions import ART
 
 Weighted = NDArray[Any]
 Ints = NDArray[np.int64]
 
-COEFFICIENTS = ART + FOURIER + 2
 _SILHOUETTES = VIEWS * LIGHT_FIELDS
 _WEIGHTS = np.repeat([1, 2, 2, 1], [ART, FOURIER, 1, 1])
-_MOST = np.iinfo(np.int32).max
+_MOST = int(np.iinfo(np.int32).max)
 
 
 def weighted(coefficients: NDArray[np.uint8], bits: int) -> Weighted:
     """Quantised coefficients (..., 47) times their weights; bits: those of ART, 4 or 8."""
-    return coefficients * _WEIGHTS.astype(np.uint16 if bits == 4 else np.int32)
+    return np.asarray(coefficients * _WEIGHTS.astype(np.uint16 if bits == 4 else np.int32))
 
 
 def by_coefficient(coefficients: Weighted) -> Weighted:
@@ -37,7 +38,7 @@ def by_coefficient(coefficients: Weighted) -> Weighted:
 
 @njit(nogil=True, cache=True)
 def least_of_all(shape: Weighted, others: Weighted, alignments: Ints, least: NDArray[np.int32]) -> None:
-    """The least cost of a shape (47, 100) against N others (N, 47, 100), over all light fields and K alignments (K, 10)."""
+    """The least cost of a shape (47, 100) against N others (N, 47, 100), over all fields and alignments (K, 10)."""
     costs = np.empty((_SILHOUETTES, _SILHOUETTES), shape.dtype)
     by_views = np.empty((VIEWS, VIEWS, LIGHT_FIELDS, LIGHT_FIELDS), shape.dtype)
     sums = np.empty(LIGHT_FIELDS**2, shape.dtype)
@@ -61,7 +62,7 @@ def _silhouette_costs(shape: Weighted, other: Weighted, costs: Weighted) -> None
 
 @njit(nogil=True, cache=True)
 def _group_by_views(costs: Weighted, by_views: Weighted) -> None:
-    """(view a, field a, view b, field b) to (view a, view b, field a, field b), so that all fields are summed at once."""
+    """(view a, field a, view b, field b) to (view a, view b, field a, field b): all fields are summed at once."""
     for m in range(VIEWS):
         for i in range(LIGHT_FIELDS):
             for n in range(VIEWS):
@@ -80,7 +81,7 @@ def _least_sum(costs: Weighted, alignments: Ints, sums: Weighted) -> int:
             for x in range(LIGHT_FIELDS**2):
                 sums[x] += costs[m, view, x]
         for x in range(LIGHT_FIELDS**2):
-            best = min(best, np.int64(sums[x]))
+            best = min(best, int(sums[x]))
     return best
 
 
@@ -107,5 +108,5 @@ def least_of_some(
             cost = np.int64(0)
             for c in range(COEFFICIENTS):
                 cost += differences[c]
-            best = min(best, cost)
+            best = min(best, int(cost))
         least[n] = best

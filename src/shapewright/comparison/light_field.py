@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from itertools import islice
 from os import PathLike
 from pathlib import Path
 from typing import Literal, TypeVar
@@ -44,6 +45,7 @@ Align = Literal["free", "upright"]
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
+_BATCH = 16
 _ALIGNMENTS = alignments()
 _UPRIGHT = upright_rotations()
 
@@ -82,7 +84,7 @@ def descriptors(
 
 
 def distance(a: Mesh | Descriptor, b: Mesh | Descriptor, align: Align = "free") -> float:
-    """The normalised distance: 0 for equal shapes, up to ``THRESHOLD`` for compatible ones, about 0.3 between strangers.
+    """The normalised distance: 0 for equal shapes, at most ``THRESHOLD`` for compatible ones.
 
     align: "free" tries 6,000 rotations of one shape against the other, as the original does; "upright" only those of
     them that keep the Y axis within 12 degrees, for shapes that are known to stand: the result is never less.
@@ -112,7 +114,7 @@ def raw_distances(
     align: Align = "free",
     threads: int | None = None,
 ) -> NDArray[np.int32]:
-    """Distances (N, M) on the original's scale: see ``distances``. Without ``others`` half of the matrix is mirrored."""
+    """Distances (N, M) on the original's scale: see ``distances``. They are symmetric to the bit."""
     if align not in ("free", "upright"):
         raise ValueError(f'align is "free" or "upright", not {align!r}')
     rows = descriptors(shapes, threads)
@@ -147,5 +149,9 @@ def _in_threads(function: Callable[[Item], Result], items: Iterable[Item], threa
     count = threads or available_threads()
     if count == 1:
         return [function(item) for item in items]
+    results: list[Result] = []
     with ThreadPoolExecutor(count) as pool:
-        return list(pool.map(function, items))
+        remaining = iter(items)
+        while batch := list(islice(remaining, _BATCH * count)):  # the pool alone would draw all items at once
+            results += pool.map(function, batch)
+    return results

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from shapewright.building import Build, Limits, Workers, describe_failures
+from shapewright.building import Build, describe_failures
 from shapewright.parameters import Parameters, ParameterSpace
-from shapewright.procedure import Procedure, ProcedureError
+from shapewright.procedure import ProcedureError
 from shapewright.rendering.cameras import THREE_VIEWS, Camera
 from shapewright.rendering.raster import render
 from shapewright.shapes import Mesh
-
-Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,19 +35,6 @@ class Dataset:
     def take(self, indices: NDArray[np.int64]) -> Dataset:
         rows = [self.parameters[i] for i in indices]
         return Dataset(rows, self.targets[indices], self.active[indices], self.images[indices])
-
-
-def build_samples(
-    procedure: Procedure,
-    count: int,
-    seed: int,
-    workers: int | None = None,
-    limits: Limits | None = None,
-    progress: Progress | None = None,
-) -> list[Build]:
-    """Builds of ``count`` different random vectors, failed ones among them."""
-    with Workers(procedure, workers, limits) as crew:
-        return crew.build(procedure.space.sample(count, seed=seed), progress)
 
 
 def meshes_of(builds: Sequence[Build]) -> tuple[list[Build], list[Mesh]]:

@@ -49,17 +49,24 @@ def silhouettes(mesh: Mesh, directions: ArrayLike) -> Bytes:
     """
     normalised = mesh.normalised()
     axes = view_axes(directions)
-    images = np.zeros((len(axes), SIZE, SIZE), dtype=np.uint8)
-    columns, rows = np.empty((2, len(normalised.vertices)))
-    for image, view in zip(images, axes, strict=True):
-        project(normalised.vertices, view, columns, rows)
-        fill_triangles(columns, rows, normalised.faces, image)
+    images = np.empty((len(axes), SIZE, SIZE), dtype=np.uint8)
+    draw(normalised.vertices, normalised.faces, axes, images)
     return images
 
 
 @njit(nogil=True, cache=True)
-def project(vertices: Floats, axes: Floats, columns: Floats, rows: Floats) -> None:
-    """Pixel coordinates of vertices (V, 3) in one view, snapped to 1/256; whole numbers are pixel centres."""
+def draw(vertices: Floats, faces: Ints, axes: Floats, images: Bytes) -> None:
+    """Draw triangles in N views (N, 2, 3); vertices (V, 3) that faces use lie at most 1 from the origin."""
+    columns, rows = np.empty(len(vertices)), np.empty(len(vertices))
+    images[:] = 0
+    for n in range(len(images)):
+        _project(vertices, axes[n], columns, rows)
+        _fill_triangles(columns, rows, faces, images[n])
+
+
+@njit(nogil=True, cache=True)
+def _project(vertices: Floats, axes: Floats, columns: Floats, rows: Floats) -> None:
+    """Pixel coordinates in one view, snapped to 1/256; whole numbers are pixel centres."""
     half = SIZE / 2.0
     for v in range(len(vertices)):
         x, y, z = vertices[v, 0], vertices[v, 1], vertices[v, 2]
@@ -69,36 +76,48 @@ def project(vertices: Floats, axes: Floats, columns: Floats, rows: Floats) -> No
         rows[v] = np.rint(((up + 1.0) * half - 0.5) * _SUBPIXELS) / _SUBPIXELS
 
 
-@njit(nogil=True, cache=True)
-def fill_triangles(columns: Floats, rows: Floats, faces: Ints, image: Bytes) -> None:
-    """Set every pixel whose centre lies in a triangle, or on its left or bottom edge; all must fall inside the image."""
+@njit(nogil=True, cache=True, error_model="numpy")
+def _fill_triangles(columns: Floats, rows: Floats, faces: Ints, image: Bytes) -> None:
+    """Set every pixel whose centre lies in a triangle, or on its left or bottom edge."""
+    pixels = image.ravel()
     for face in range(len(faces)):
         a, b, c = faces[face, 0], faces[face, 1], faces[face, 2]
-        if rows[a] > rows[b]:
-            a, b = b, a
-        if rows[b] > rows[c]:
-            b, c = c, b
-        if rows[a] > rows[b]:
-            a, b = b, a
-        bottom, middle, top = math.ceil(rows[a]), math.ceil(rows[b]), math.ceil(rows[c])
-        if bottom == top:
-            continue
-        leftmost = min(columns[a], columns[b], columns[c])
-        rightmost = max(columns[a], columns[b], columns[c])
-        if math.ceil(leftmost) == math.ceil(rightmost):
-            continue
-        long_slope = (columns[c] - columns[a]) / (rows[c] - rows[a])
-        if middle > bottom:
-            slope = (columns[b] - columns[a]) / (rows[b] - rows[a])
-            for row in range(bottom, middle):
-                along = columns[a] + (row - rows[a]) * long_slope - _BELOW
-                across = columns[a] + (row - rows[a]) * slope - _BELOW
-                for column in range(math.ceil(min(along, across)), math.ceil(max(along, across))):
-                    image[row, column] = 1
-        if top > middle:
-            slope = (columns[c] - columns[b]) / (rows[c] - rows[b])
-            for row in range(middle, top):
-                along = columns[a] + (row - rows[a]) * long_slope - _BELOW
-                across = columns[b] + (row - rows[b]) * slope - _BELOW
-                for column in range(math.ceil(min(along, across)), math.ceil(max(along, across))):
-                    image[row, column] = 1
+        xa, ya, xb, yb, xc, yc = columns[a], rows[a], columns[b], rows[b], columns[c], rows[c]
+        if np.ceil(min(ya, yb, yc)) == np.ceil(max(ya, yb, yc)) or np.ceil(min(xa, xb, xc)) == np.ceil(max(xa, xb, xc)):
+            continue  # most triangles of a fine mesh lie between two rows or two columns of pixel centres
+        if ya > yb:
+            xa, ya, xb, yb = xb, yb, xa, ya
+        if yb > yc:
+            xb, yb, xc, yc = xc, yc, xb, yb
+        if ya > yb:
+            xa, ya, xb, yb = xb, yb, xa, ya
+        bottom, middle, top = math.ceil(ya), math.ceil(yb), math.ceil(yc)
+        slope = (xc - xa) / (yc - ya)
+        if bottom < middle:
+            _fill_rows(pixels, bottom, middle, xa + (bottom - ya) * slope, slope, xa, ya, xb, yb)
+        if middle < top:
+            _fill_rows(pixels, middle, top, xa + (middle - ya) * slope, slope, xb, yb, xc, yc)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _fill_rows(
+    pixels: Bytes,
+    first: int,
+    end: int,
+    long: float,
+    long_slope: float,
+    x0: float,
+    y0: float,
+    x1: float,
+    y1: float,
+) -> None:
+    """Fill rows between the long edge, which crosses the first of them at ``long``, and the edge from 0 to 1."""
+    slope = (x1 - x0) / (y1 - y0)
+    short = x0 + (first - y0) * slope
+    for row in range(first, end):
+        left = math.ceil(min(long, short) - _BELOW)
+        right = math.ceil(max(long, short) - _BELOW)
+        if left < right:
+            pixels[row * SIZE + left : row * SIZE + right] = 1
+        long += long_slope
+        short += slope

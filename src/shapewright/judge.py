@@ -1,0 +1,101 @@
+"""The judge: knows the references, and measures how far replicas are from them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shapewright.building import Build
+from shapewright.comparison import light_field
+from shapewright.comparison.aligned import AlignedCost
+from shapewright.comparison.grouping import Group, group
+from shapewright.comparison.silhouettes import intersection_over_union
+from shapewright.comparison.surfaces import chamfer
+from shapewright.references import Collection
+from shapewright.rendering.raster import available_threads
+from shapewright.settings import Settings
+from shapewright.shapes import Mesh
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Judge:
+    """Measures replicas against the references of one collection, on several threads.
+
+    descriptors: of the references; None for one so thin that no view shows it, which nothing can replicate.
+    """
+
+    references: Collection
+    descriptors: tuple[light_field.Descriptor | None, ...]
+    settings: Settings
+
+    @classmethod
+    def of(cls, references: Collection, settings: Settings, cache: Path | None = None) -> Judge:
+        """Describe the references; cache: a folder that keeps the descriptors."""
+        shapes = [reference.shape for reference in references]
+        return cls(references, tuple(_describe(shapes, settings.workers, cache)), settings)
+
+    def distances(self, builds: Sequence[Build]) -> Floats:
+        """Normalised light-field distance of one build for each reference, (N,); NaN where it cannot be measured."""
+        described = _describe([_mesh(build) for build in builds], self.settings.workers)
+        pairs = zip(self.descriptors, described, strict=True)
+        align = self.settings.align
+        return np.array([light_field.distance(a, b, align) if a and b else np.nan for a, b in pairs])
+
+    def search_costs(self, pairs: Sequence[tuple[int, Mesh]]) -> list[float]:
+        """Costs to search by: of a replica against the reference with that index, in the pose that it has."""
+        targets = {i: AlignedCost(d) for i, _ in pairs if (d := self.descriptors[i]) is not None}
+        return _in_threads(
+            lambda pair: targets[pair[0]](pair[1]) if pair[0] in targets else np.inf, pairs, self.settings.workers
+        )
+
+    def overlaps(self, builds: Sequence[Build]) -> tuple[Floats, Floats]:
+        """IoU of silhouettes and Chamfer distance of one build for each reference; NaN where there is no mesh."""
+        iou, surface = np.full(len(builds), np.nan), np.full(len(builds), np.nan)
+        rows = [i for i, build in enumerate(builds) if _mesh(build) and self.descriptors[i]]
+        theirs = [self.references.references[i].shape for i in rows]
+        ours = [mesh for i in rows if (mesh := _mesh(builds[i]))]
+        iou[rows] = intersection_over_union(theirs, ours, threads=self.settings.workers)
+        seed = self.settings.seed
+        surface[rows] = _in_threads(
+            lambda pair: chamfer(*pair, seed=seed), list(zip(theirs, ours, strict=True)), self.settings.workers
+        )
+        return iou, surface
+
+    def groups(self, distances: Floats) -> tuple[Group, ...]:
+        """The references whose distance is above the threshold or unknown, by likeness to each other."""
+        rows = [i for i, d in enumerate(self.descriptors) if d and not distances[i] <= self.settings.threshold]
+        misfits = [d for i in rows if (d := self.descriptors[i])]
+        between = light_field.distances(misfits, align=self.settings.align, threads=self.settings.workers)
+        names = [self.references.names[i] for i in rows]
+        return group(names, between, self.settings.cut, self.settings.cut_absolute)
+
+
+def _mesh(build: Build) -> Mesh | None:
+    return build.shape if isinstance(build.shape, Mesh) else None
+
+
+def _describe(
+    shapes: Iterable[Mesh | None], threads: int | None, cache: Path | None = None
+) -> list[light_field.Descriptor | None]:
+    def describe(mesh: Mesh | None) -> light_field.Descriptor | None:
+        try:
+            return light_field.descriptor(mesh, cache=cache) if mesh else None
+        except ValueError:
+            return None
+
+    return _in_threads(describe, list(shapes), threads)
+
+
+def _in_threads(function: Callable[[Item], Result], items: Sequence[Item], threads: int | None) -> list[Result]:
+    with ThreadPoolExecutor(threads or available_threads()) as pool:
+        return list(pool.map(function, items))
