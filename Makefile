@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: demo test check clean
+.PHONY: demo test clean picture
 
 demo: .venv/installed
 	$(BIN)/shapewright demo --out demo-run
@@ -20,3 +20,7 @@ test: .venv/installed
 
 clean:
 	rm -rf .venv demo-run runs
+
+# The picture in the README: the report that `make demo` made last.
+picture:
+	$(BIN)/python docs/screenshot.py $$(ls -d demo-run/runs/*/ | tail -1)report.html docs/pictures/report.png

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from shapewright.comparison.coefficients import COEFFICIENTS, coefficients, quantise
 from shapewright.comparison.contours import FOURIER
 from shapewright.comparison.dodecahedra import LIGHT_FIELDS, VIEWS, directions
+from shapewright.comparison.least_cost import Weighted, by_coefficient, weighted
 from shapewright.comparison.regions import ART
 from shapewright.rendering.silhouettes_raster import SIZE, draw, view_axes
 from shapewright.shapes import Mesh
@@ -34,11 +36,21 @@ class Descriptor:
     eccentricity: Bytes
     bits: int = 4
 
-    @property
+    @cached_property
     def coefficients(self) -> Bytes:
         """All 47 of each silhouette in the order of the fields: (10, 10, 47)."""
         others = np.stack([self.circularity, self.eccentricity], axis=-1)
         return np.concatenate([self.art, self.fourier, others], axis=-1)
+
+    @cached_property
+    def by_view(self) -> Weighted:
+        """Weighted coefficients (10, 10, 47) as ``least_cost.least_of_some`` takes them."""
+        return weighted(self.coefficients, self.bits)
+
+    @cached_property
+    def by_coefficient(self) -> Weighted:
+        """Weighted coefficients (47, 100) as ``least_cost.least_of_all`` takes them."""
+        return by_coefficient(self.by_view)
 
     @classmethod
     def of(cls, coefficients: Bytes, bits: int = 4) -> Descriptor:

@@ -6,6 +6,8 @@ twenty are rendered (Chen et al. 2003, section 3). The figures below are those o
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
@@ -52,6 +54,7 @@ _UPRIGHT_TILT = 12.0
 _NEIGHBOUR_COSINE = np.sqrt(5.0) / 3.0  # of the angle between a vertex and the three nearest to it
 
 
+@cache
 def directions() -> Floats:
     """Unit vectors (10, 10, 3) to the cameras: light field, view."""
     vertices = np.stack([rotation.apply(_VERTICES) for rotation in _ROTATIONS])

@@ -32,8 +32,8 @@ def weighted(coefficients: NDArray[np.uint8], bits: int) -> Weighted:
 
 
 def by_coefficient(coefficients: Weighted) -> Weighted:
-    """Coefficients (N, light field, view, 47) as (N, 47, 100), silhouettes in the order 10 * view + light field."""
-    return np.ascontiguousarray(coefficients.transpose(0, 3, 2, 1)).reshape(-1, COEFFICIENTS, _SILHOUETTES)
+    """Coefficients (light field, view, 47) as (47, 100), silhouettes in the order 10 * view + light field."""
+    return np.ascontiguousarray(coefficients.T).reshape(COEFFICIENTS, _SILHOUETTES)
 
 
 @njit(nogil=True, cache=True)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from shapewright.comparison.descriptor import Descriptor, describe
 from shapewright.comparison.descriptor_cache import DescriptorCache
 from shapewright.comparison.dodecahedra import alignments, upright_rotations
-from shapewright.comparison.least_cost import Weighted, by_coefficient, least_of_all, least_of_some, weighted
+from shapewright.comparison.least_cost import Weighted, least_of_all, least_of_some
 from shapewright.rendering.raster import available_threads
 from shapewright.shapes import Mesh
 
@@ -141,8 +141,7 @@ def raw_distances(
 
 
 def _table(items: Sequence[Descriptor], align: Align) -> Weighted:
-    table = weighted(np.stack([item.coefficients for item in items]), items[0].bits)
-    return by_coefficient(table) if align == "free" else table
+    return np.stack([item.by_coefficient if align == "free" else item.by_view for item in items])
 
 
 def _in_threads(function: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> list[Result]:

@@ -1,7 +1,7 @@
 """How much two drawings differ to the eye: the light field's measures on the one silhouette that a drawing has.
 
 Zernike moments of the region and Fourier coefficients of the outer contour (Chen et al. 2003, section 4; the program of
-its authors replaces the moments by the angular radial transform). There is no quantisation, and no scale of an original.
+its authors replaces the moments by the angular radial transform), neither of them quantised.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _ORDERS = np.array([(n, m) for n in range(1, 11) for m in range(n % 2, n + 1, 2)
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """zernike: (35,) complex, orders n up to 10, moduli in [0, 1]. fourier: (10,), magnitudes 1 to 10 over magnitude 0."""
+    """zernike: (35,) complex, of orders 1 to 10, moduli at most 1. fourier: (10,), magnitudes 1 to 10 over number 0."""
 
     zernike: NDArray[np.complex128]
     fourier: Floats
@@ -73,7 +73,7 @@ def distances(
 
 
 def silhouette(drawing: Drawing) -> Bytes:
-    """The normalised drawing (256, 256) in [-1, 1] x [-1, 1]: 1 where it covers a pixel's centre; row 0 at the bottom."""
+    """The normalised drawing in [-1, 1] x [-1, 1]: (256, 256), 1 where it covers a pixel's centre, bottom row first."""
     regions = shapely.get_parts(shapely.unary_union(drawing.normalised().geometry))
     rings = shapely.get_rings(regions[shapely.area(regions) > 0.0])
     corners, ring = shapely.get_coordinates(rings, return_index=True)

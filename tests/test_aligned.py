@@ -1,0 +1,33 @@
+import numpy as np
+import pytest
+
+from shapewright.comparison import light_field
+from shapewright.comparison.aligned import AlignedCost
+from shapewright.modelling.solids import box, cylinder
+from shapewright.shapes import Mesh
+
+
+def table(height, leg=0.08):
+    post = box((leg, height, leg), at=(0.4, 0, 0.3))
+    return (box((1, 0.06, 0.8), at=(0, height / 2, 0)) | post.mirror("x", keep=True).mirror("z", keep=True)).mesh()
+
+
+def test_the_cost_is_nought_for_the_shape_itself_in_any_size_and_place():
+    cost = AlignedCost(light_field.descriptor(table(0.7)))
+    assert cost(table(0.7)) == 0.0
+    assert cost(Mesh(table(0.7).vertices * 3.0 + 5.0, table(0.7).faces)) < 30.0
+
+
+def test_the_cost_bounds_the_raw_distance_from_above_and_orders_shapes_as_it_does():
+    reference = light_field.descriptor(table(0.7))
+    cost = AlignedCost(reference)
+    shapes = [table(0.72), table(0.8), table(1.2), cylinder((1, 0.3, 1)).mesh()]
+    costs = [cost(shape) for shape in shapes]
+    raw = [light_field.raw_distance(reference, shape) for shape in shapes]
+    assert all(c >= r for c, r in zip(costs, raw, strict=True))
+    assert costs == sorted(costs) and raw == sorted(raw)
+
+
+def test_what_no_view_shows_costs_without_end():
+    needle = Mesh(np.array([[0.0, 0, 0], [1e-9, 1, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    assert AlignedCost(light_field.descriptor(table(0.7)))(needle) == pytest.approx(np.inf)
