@@ -10,7 +10,7 @@ from shapewright.shapes import Drawing, Mesh, Transform
 
 if TYPE_CHECKING:
     from shapewright.authoring import fit, train
-    from shapewright.comparison import light_field
+    from shapewright.comparison import light_field, outline
     from shapewright.iteration import Iteration
     from shapewright.prediction.predictor import Predictor
     from shapewright.references import Collection, CollectionError, Reference
@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 # An author's file imports this package in every worker process: what loads torch or numba is loaded when first used.
 _ON_FIRST_USE = {
     "fit": "shapewright.authoring",
-    "light_field": "shapewright.comparison.light_field",
+    "light_field": "shapewright.comparison",
+    "outline": "shapewright.comparison",
     "Iteration": "shapewright.iteration",
     "Predictor": "shapewright.prediction.predictor",
     "train": "shapewright.authoring",
@@ -31,9 +32,10 @@ _ON_FIRST_USE = {
 def __getattr__(name: str) -> Any:
     if name not in _ON_FIRST_USE:
         raise AttributeError(f"module 'shapewright' has no attribute {name!r}")
-    if name == "light_field":
-        return importlib.import_module("shapewright.comparison.light_field")
-    return getattr(importlib.import_module(_ON_FIRST_USE[name]), name)
+    home = _ON_FIRST_USE[name]
+    if home == "shapewright.comparison":
+        return importlib.import_module(f"{home}.{name}")
+    return getattr(importlib.import_module(home), name)
 
 
 __all__ = [
@@ -59,6 +61,7 @@ __all__ = [
     "fit",
     "light_field",
     "load_procedure",
+    "outline",
     "procedure",
     "train",
 ]

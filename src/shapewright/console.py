@@ -84,9 +84,9 @@ def print_iteration(console: Console, iteration: Iteration, folder: Path) -> Non
     )
     skipped = iteration.collection["skipped"]
     if skipped:
-        console.print(f"[yellow]{len(skipped)} files could not be read:[/]")
+        console.print(f"[yellow]{len(skipped)} {'file' if len(skipped) == 1 else 'files'} could not be read:[/]")
         for path, reason in list(skipped.items())[:5]:
-            console.print(f"  {escape(path)}: {escape(reason)}", highlight=False)
+            console.print(f"  {escape(path)}: {escape(reason)}", highlight=False, soft_wrap=True)
     if iteration.metrics["failed"]:
         console.print(
             f"[yellow]{iteration.metrics['failed']} samples failed:[/] {escape(iteration.metrics['failures'])}"

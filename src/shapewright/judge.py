@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +16,10 @@ from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.silhouettes import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
 from shapewright.references import Collection
-from shapewright.rendering.raster import available_threads
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
 
-Item = TypeVar("Item")
-Result = TypeVar("Result")
 Floats = NDArray[np.float64]
 
 
@@ -54,7 +50,7 @@ class Judge:
     def search_costs(self, pairs: Sequence[tuple[int, Mesh]]) -> list[float]:
         """Costs to search by: of a replica against the reference with that index, in the pose that it has."""
         targets = {i: AlignedCost(d) for i, _ in pairs if (d := self.descriptors[i]) is not None}
-        return _in_threads(
+        return in_threads(
             lambda pair: targets[pair[0]](pair[1]) if pair[0] in targets else np.inf, pairs, self.settings.workers
         )
 
@@ -66,7 +62,7 @@ class Judge:
         ours = [mesh for i in rows if (mesh := _mesh(builds[i]))]
         iou[rows] = intersection_over_union(theirs, ours, threads=self.settings.workers)
         seed = self.settings.seed
-        surface[rows] = _in_threads(
+        surface[rows] = in_threads(
             lambda pair: chamfer(*pair, seed=seed), list(zip(theirs, ours, strict=True)), self.settings.workers
         )
         return iou, surface
@@ -93,9 +89,4 @@ def _describe(
         except ValueError:
             return None
 
-    return _in_threads(describe, list(shapes), threads)
-
-
-def _in_threads(function: Callable[[Item], Result], items: Sequence[Item], threads: int | None) -> list[Result]:
-    with ThreadPoolExecutor(threads or available_threads()) as pool:
-        return list(pool.map(function, items))
+    return in_threads(describe, list(shapes), threads)

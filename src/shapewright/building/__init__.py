@@ -1,6 +1,7 @@
 """Building many shapes in worker processes that a bad procedure cannot take down with it."""
 
 from shapewright.building.outcomes import Build, Failure, FailureKind, Limits, describe_failures
-from shapewright.building.pool import Workers, build_all, cores
+from shapewright.building.pool import Workers, build_all
+from shapewright.threads import cores
 
 __all__ = ["Build", "Failure", "FailureKind", "Limits", "Workers", "build_all", "cores", "describe_failures"]

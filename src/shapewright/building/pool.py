@@ -7,7 +7,6 @@ or hangs, its slice is built again one shape at a time, so that only the shape a
 
 from __future__ import annotations
 
-import os
 import queue
 import sys
 import threading
@@ -20,14 +19,10 @@ from shapewright.building.outcomes import Build, Failure, Limits, describe_failu
 from shapewright.building.process import WorkerProcess
 from shapewright.parameters import Parameters
 from shapewright.procedure import Procedure, ProcedureError
+from shapewright.threads import cores
 
 SLICE = 64
 _PROBES = (3, 8)
-
-
-def cores() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 class Workers:

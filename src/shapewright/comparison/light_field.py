@@ -6,12 +6,10 @@ raw / ``RAW_SCALE``, the scale of the paper's threshold. Every function without 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from itertools import islice
+from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +18,8 @@ from shapewright.comparison.descriptor import Descriptor, describe
 from shapewright.comparison.descriptor_cache import DescriptorCache
 from shapewright.comparison.dodecahedra import alignments, upright_rotations
 from shapewright.comparison.least_cost import Weighted, least_of_all, least_of_some
-from shapewright.rendering.raster import available_threads
 from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
 
 __all__ = [
     "RAW_SCALE",
@@ -42,8 +40,6 @@ RAW_SCALE = 15_000
 """Raw distance over normalised distance."""
 
 Align = Literal["free", "upright"]
-Item = TypeVar("Item")
-Result = TypeVar("Result")
 
 _BATCH = 16
 _ALIGNMENTS = alignments()
@@ -80,7 +76,7 @@ def descriptors(
         except ValueError as error:
             raise ValueError(f"shape {number}: {error}") from error
 
-    return _in_threads(describe_one, enumerate(shapes), threads)
+    return in_threads(describe_one, enumerate(shapes), threads)
 
 
 def distance(a: Mesh | Descriptor, b: Mesh | Descriptor, align: Align = "free") -> float:
@@ -134,7 +130,7 @@ def raw_distances(
         else:
             least_of_some(ours[n], theirs[start:], _ALIGNMENTS, _UPRIGHT, raw[n, start:])
 
-    _in_threads(fill_row, range(len(rows)), threads)
+    in_threads(fill_row, range(len(rows)), threads)
     if others is None:
         raw += raw.T
     return raw
@@ -142,15 +138,3 @@ def raw_distances(
 
 def _table(items: Sequence[Descriptor], align: Align) -> Weighted:
     return np.stack([item.by_coefficient if align == "free" else item.by_view for item in items])
-
-
-def _in_threads(function: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> list[Result]:
-    count = threads or available_threads()
-    if count == 1:
-        return [function(item) for item in items]
-    results: list[Result] = []
-    with ThreadPoolExecutor(count) as pool:
-        remaining = iter(items)
-        while batch := list(islice(remaining, _BATCH * count)):  # the pool alone would draw all items at once
-            results += pool.map(function, batch)
-    return results

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -13,6 +11,7 @@ from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import THREE_VIEWS, Camera, pack
 from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
 
 AMBIENT = 0.25
 LIGHT = (0.35, 0.5, 0.79)
@@ -39,19 +38,8 @@ def render(
     def draw(i: int) -> None:
         _draw(meshes[i].vertices, meshes[i].faces, packed, size, supersample, images[i])
 
-    count = threads or available_threads()
-    if count == 1 or len(meshes) < 2:
-        for i in range(len(meshes)):
-            draw(i)
-    else:
-        with ThreadPoolExecutor(count) as pool:
-            list(pool.map(draw, range(len(meshes)), chunksize=16))
+    in_threads(draw, range(len(meshes)), threads)
     return images
-
-
-def available_threads() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @njit(nogil=True, cache=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -13,8 +12,9 @@ from numba import njit
 from PIL import Image
 
 from shapewright.rendering.cameras import THUMBNAIL, pack
-from shapewright.rendering.raster import AMBIENT, available_threads, draw_view
+from shapewright.rendering.raster import AMBIENT, draw_view
 from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
 
 SUPERSAMPLE = 3
 # Edges are drawn where the surface bends by more than this angle (rounded parts of 12 sides and more stay clean), and
@@ -47,8 +47,7 @@ def thumbnail(mesh: Mesh, size: int = 256) -> bytes:
 
 def thumbnails(meshes: Sequence[Mesh], size: int = 256, threads: int | None = None) -> list[bytes]:
     """``thumbnail`` of each mesh, in order; the bytes do not depend on the number of threads."""
-    with ThreadPoolExecutor(threads or available_threads()) as pool:
-        return list(pool.map(lambda mesh: thumbnail(mesh, size), meshes))
+    return in_threads(lambda mesh: thumbnail(mesh, size), meshes, threads)
 
 
 @njit(nogil=True, cache=True)
