@@ -17,9 +17,11 @@ from pathlib import Path
 
 import numpy as np
 import trimesh
+from scipy.spatial.transform import Rotation
 from scipy.stats import spearmanr
 
 from shapewright.comparison import light_field
+from shapewright.comparison.dodecahedra import symmetries
 from shapewright.comparison.light_field import Descriptor, descriptor, descriptors, distance, raw_distances
 from shapewright.shapes import Mesh
 
@@ -88,11 +90,29 @@ def agreement() -> None:
             print(f"    compatible: {np.mean(known <= COMPATIBLE):.1%} of the pairs, {alike:.2%} decided alike")
             print(f"    upright over free: median {np.median(ratio):.3f}, most {ratio.max():.2f}")
             print(f"    compatible upright: {np.mean(upright <= COMPATIBLE):.1%} of the pairs")
+    invariance(meshes)
     seconds = [best_of(3, lambda mesh=mesh: descriptor(mesh)) for mesh in meshes]
     faces = [len(mesh.faces) for mesh in meshes]
     print(f"  a descriptor ({min(faces)} to {max(faces)} triangles), ms and how many times as long the original takes:")
     for name, value in (("median", np.median(seconds)), ("longest", max(seconds))):
         print(f"    {name:9s} {value * 1e3:6.1f} {ORIGINAL_DESCRIPTOR / value:6.0f}")
+
+
+def invariance(meshes: list[Mesh]) -> None:
+    """Raw distances of shapes to themselves, moved: what rasterisation adds to a distance that should be 0."""
+    rng = np.random.default_rng(0)
+    around, other = np.eye(4), np.eye(4)
+    around[:3, :3], other[:3, :3] = symmetries()[17], Rotation.random(random_state=0).as_matrix()
+    motions = {
+        "scaled by 3.7": lambda mesh: Mesh(mesh.vertices * 3.7, mesh.faces),
+        "shifted": lambda mesh: Mesh(mesh.vertices + rng.uniform(-10.0, 10.0, 3), mesh.faces),
+        "rotated by one of the 60": lambda mesh: mesh.transformed(around),
+        "rotated at random": lambda mesh: mesh.transformed(other),
+    }
+    print(f"raw distance of {len(meshes)} shapes to themselves ({COMPATIBLE:.0f} is the threshold): median, most")
+    for name, move in motions.items():
+        raw = [light_field.raw_distance(mesh, move(mesh)) for mesh in meshes]
+        print(f"  {name:25s} {np.median(raw):6.0f} {max(raw):6d}")
 
 
 def seconds_per_descriptor() -> None:
