@@ -1,5 +1,6 @@
 import json
 import math
+from dataclasses import replace
 from typing import Annotated, Literal
 
 import numpy as np
@@ -33,7 +34,8 @@ def iteration():
     told = []
     it = sw.fit(stool, references(), SETTINGS, progress=told.append)
     stages = list(dict.fromkeys(event.stage for event in told))
-    assert stages == "sample render train describe predict replicate refine compare picture".split()
+    assert stages == ["sample", "render", "train", "describe", "predict", "replicate", "refine", "compare", "picture"]
+    assert all(set(event.answer) == set(it.names) for event in told if event.answer)
     assert list(it.seconds) == stages and all(event.done <= event.total for event in told)
     return it
 
@@ -92,6 +94,7 @@ def test_a_run_holds_everything(iteration, tmp_path):
         "iteration.json",
         "parameters.csv",
         "parameters.json",
+        "predictor.pt",
         "procedure.py",
         "replicas",
         "thumbnails",
@@ -105,6 +108,53 @@ def test_a_run_holds_everything(iteration, tmp_path):
     assert record["seed"] == 1 and record["settings"]["samples"] == 500 and "torch" in record["versions"]
     assert "def stool" in (folder / "procedure.py").read_text()
     assert "001" in (folder / "report.html").read_text()
+
+
+@sw.procedure
+def stool_with_foot(
+    height: Annotated[float, Range(0.3, 1.2)] = 0.6,
+    seat: Literal["square", "round", "none"] = "square",
+    foot: bool = False,
+):
+    shape = stool.function(height, "square" if seat == "none" else seat)
+    return shape | box((0.6, 0.06, 0.6)) if foot else shape
+
+
+def test_an_iteration_goes_on_from_the_previous_one(iteration, tmp_path):
+    answers = []
+
+    def listen(event):
+        if event.answer:
+            answers.append((event.remark, event.answer))
+
+    previous = sw.Iteration.load(iteration.save(tmp_path / "001"))
+    warm = sw.fit(stool_with_foot, references(), replace(SETTINGS, warm_epochs=3), listen, previous=previous)
+    assert len(warm.metrics["curve"]) == 3
+    assert [remark for remark, _ in answers][:1] == ["carried over"]
+    carried = answers[0][1]["stool 1"]
+    assert carried == {**iteration["stool 1"].parameters, "foot": False}
+    for name in iteration.compatible:
+        assert warm[name].distance <= iteration[name].distance
+    again = sw.fit(stool_with_foot, references(), replace(SETTINGS, warm_epochs=3), previous=previous)
+    assert [(r.parameters, r.distance) for r in again] == [(r.parameters, r.distance) for r in warm]
+
+
+def test_a_first_answer_comes_before_training(iteration):
+    events = []
+    settings = replace(SETTINGS, epochs=1, refine="off")
+    it = sw.fit(stool, references(), settings, lambda event: events.append((event.stage, event.answer)))
+    first = next(i for i, (_, answer) in enumerate(events) if answer)
+    assert first < [stage for stage, _ in events].index("train")
+    assert events[first][1]["stool 1"]["seat"] == "round"
+    assert 0.0 < it.metrics["first_answer"] < sum(it.seconds.values())
+
+
+def test_adaptive_rounds_never_lose_what_was_found(iteration):
+    settings = replace(SETTINGS, rounds=1, round_samples=100, warm_epochs=2)
+    adaptive = sw.fit(stool, references(), settings)
+    assert adaptive.metrics["samples"] > iteration.metrics["samples"]
+    for mine, theirs in zip(adaptive, iteration, strict=True):
+        assert mine.distance <= theirs.distance + 1e-12
 
 
 @sw.procedure

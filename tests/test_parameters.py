@@ -126,3 +126,19 @@ def test_a_space_is_indexed_by_name():
     with pytest.raises(KeyError, match="no parameter 'x'; there are p0, p1"):
         space["x"]
     assert repr(space["p0"]) == "Scalar(name='p0', low=0.0, high=1.0, default=0.0, steps=3)"
+
+
+def test_values_are_carried_to_an_edited_space():
+    space = ParameterSpace(
+        (
+            Scalar("height", 0.5, 1.0, 0.7),
+            Integer("shelves", 0, 2, 1),
+            Choice("legs", ("four", "pedestal"), "four"),
+            Binary("round", False),
+        )
+    )
+    old = {"height": 1.4, "shelves": 2, "legs": "trestle", "gone": 3.0}
+    assert space.carry(old) == {"height": 1.0, "shelves": 2, "legs": "four", "round": False}
+    assert space.carry(old, {"legs": "pedestal", "round": True})["round"] is True
+    assert space.carry(old, {"legs": "pedestal"})["legs"] == "pedestal"
+    assert space.carry({"height": "tall", "shelves": True}) == space.defaults

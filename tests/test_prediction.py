@@ -10,8 +10,9 @@ from shapewright.building import build_all
 from shapewright.modelling.solids import box, cylinder
 from shapewright.parameters import Binary, Choice, ParameterSpace, Scalar
 from shapewright.prediction.dataset import make_dataset, meshes_of, split
+from shapewright.prediction.evaluation import infer, score
 from shapewright.prediction.network import CompactNetwork, loss
-from shapewright.prediction.training import Schedule, infer, score, train_network
+from shapewright.prediction.training import Schedule, train_network
 
 SETTINGS = sw.Settings(seed=1, samples=500, epochs=14, image_size=32, workers=2)
 
@@ -77,8 +78,8 @@ def test_the_loss_counts_a_parameter_only_where_it_matters():
 def test_each_parameter_has_a_head_of_its_own():
     space = ParameterSpace((Scalar("s", 0, 1, 0), Choice("c", ("a", "b", "d"), "a"), Binary("b", False)))
     network = CompactNetwork(space, views=2, size=32)
-    assert [tuple(output.shape) for output in network(torch.rand(5, 2, 2, 32, 32))] == [(5, 1), (5, 3), (5, 2)]
-    inferred = infer(network, space, np.zeros((4, 2, 2, 32, 32), dtype=np.uint8))
+    assert [tuple(output.shape) for output in network(torch.rand(5, 2, 2, 32, 32))] == [(5, 2), (5, 3), (5, 2)]
+    inferred = infer(network, space, np.zeros((4, 2, 2, 32, 32), dtype=np.uint8)).values
     assert inferred[0].shape == (4,) and inferred[1].sum(axis=1) == pytest.approx(np.ones(4), abs=1e-5)
 
 

@@ -9,9 +9,10 @@ from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Transform
 
 if TYPE_CHECKING:
-    from shapewright.authoring import fit, train
+    from shapewright.authoring import fit
     from shapewright.comparison import light_field, outline
     from shapewright.iteration import Iteration
+    from shapewright.learning import train
     from shapewright.prediction.predictor import Predictor
     from shapewright.references import Collection, CollectionError, Reference
 
@@ -22,7 +23,7 @@ _ON_FIRST_USE = {
     "outline": "shapewright.comparison",
     "Iteration": "shapewright.iteration",
     "Predictor": "shapewright.prediction.predictor",
-    "train": "shapewright.authoring",
+    "train": "shapewright.learning",
     "Collection": "shapewright.references",
     "CollectionError": "shapewright.references",
     "Reference": "shapewright.references",

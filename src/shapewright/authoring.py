@@ -6,7 +6,9 @@ import hashlib
 import math
 import platform
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -14,23 +16,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from shapewright.building import Build, Limits, Workers, describe_failures
+from shapewright.building import Build, Workers
 from shapewright.comparison.grouping import Group
 from shapewright.iteration import Iteration, draw_pictures
 from shapewright.judge import Judge
-from shapewright.parameters import Parameter, Scalar
-from shapewright.prediction.dataset import make_dataset, meshes_of, split
-from shapewright.prediction.predictor import Predictor
+from shapewright.learning import Lesson, learn, learn_more, limits_of
+from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.prediction.adaptive import around
+from shapewright.prediction.dataset import Dataset
+from shapewright.prediction.lookup import nearest
 from shapewright.prediction.refinement import QUICK, THOROUGH, refine
-from shapewright.prediction.training import Epoch, Schedule, measure, train_network
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
+from shapewright.records import to_record
 from shapewright.references import Collection
-from shapewright.rendering.cameras import THREE_VIEWS
+from shapewright.rendering.raster import render
 from shapewright.results import Result, at_limit
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh
 
+_NEAR = 0.5
+"""Share of the threshold up to which parameters that were carried over are left as they are."""
 VERSIONED = ("shapewright", "numpy", "torch", "numba", "manifold3d", "scikit-learn", "trimesh")
 
 
@@ -40,22 +46,38 @@ def fit(
     settings: Settings | None = None,
     progress: Listener | None = None,
     cache: Path | None = None,
+    previous: Iteration | None = None,
 ) -> Iteration:
     """One iteration: find parameters for every reference and say which the procedure cannot replicate yet.
 
-    progress: called with a Progress a few times a second; ``print`` will do. cache: a folder that keeps the references'
-    descriptors between iterations. The same seed, settings and machine give the same iteration. Raises ProcedureError
-    when the procedure cannot build shapes.
+    progress: called with a Progress a few times a second; ``print`` will do. Within seconds one of them holds a first
+    answer. cache: a folder that keeps the references' descriptors between iterations. previous: an iteration with an
+    earlier version of the procedure to go on from: its parameters, network and cameras are carried over, which takes a
+    third of the time. The same seed, settings and machine give the same iteration. Raises ProcedureError when the
+    procedure cannot build shapes.
     """
     settings = settings or Settings()
     stages = Stages(progress)
-    with Workers(procedure, settings.workers, _limits(settings)) as crew:
-        predictor, failures = _train(procedure, crew, settings, stages)
+    known = _carried(procedure.space, references, previous)
+    with Workers(procedure, settings.workers, limits_of(settings)) as crew:
+        if previous:
+            answer = {name: values for name, values in zip(references.names, known, strict=True) if values}
+            stages.answer(answer, "carried over")
+        watch = None if previous else partial(_first_answer, references, stages, settings)
+        lesson = learn(procedure, crew, settings, stages, previous.predictor if previous else None, watch)
         stages.begin("describe", len(references))
         judge = Judge.of(references, settings, cache)
-        stages.begin("predict", len(references))
-        inferred = predictor.infer([reference.shape for reference in references])
-        builds, distances = _replicate(procedure, crew, judge, predictor, inferred, settings, stages)
+        found = _Found.none(len(references))
+        if previous:
+            found = _try(crew, judge, [values or procedure.space.defaults for values in known], found)
+        found = _replicate(procedure, crew, judge, lesson, settings, stages, found)
+        for number in range(settings.rounds):
+            centres = [build.parameters for build in found.builds if build]
+            seed = settings.seed + number + 1
+            vectors = around(procedure.space, centres, lesson.predictor.metrics, settings.round_samples, seed)
+            lesson = learn_more(procedure, crew, settings, stages, lesson, vectors)
+            found = _replicate(procedure, crew, judge, lesson, settings, stages, found)
+    builds, distances, predictor = [build for build in found.builds if build], found.distances, lesson.predictor
     stages.begin("compare", len(references))
     groups = judge.groups(distances)
     results = _results(procedure, references, builds, distances, judge.overlaps(builds), groups, settings.threshold)
@@ -76,7 +98,8 @@ def fit(
         },
         metrics={
             "samples": predictor.samples,
-            **failures,
+            **lesson.facts,
+            "first_answer": stages.first_answer,
             "epochs": len(predictor.curve),
             "curve": [vars(epoch) for epoch in predictor.curve],
             "validation": predictor.metrics,
@@ -84,66 +107,87 @@ def fit(
         versions={"python": platform.python_version(), **{name: version(name) for name in VERSIONED}},
         created=datetime.now(UTC).isoformat(timespec="seconds"),
         pictures=pictures,
+        predictor=predictor,
     )
 
 
-def train(procedure: Procedure, settings: Settings | None = None, progress: Listener | None = None) -> Predictor:
-    """Sample the procedure and train a predictor of its parameters. Raises ProcedureError as ``fit`` does."""
-    settings = settings or Settings()
-    stages = Stages(progress)
-    with Workers(procedure, settings.workers, _limits(settings)) as crew:
-        predictor, _ = _train(procedure, crew, settings, stages)
-    stages.end()
-    return predictor
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """The nearest build so far for each reference, and its distance; NaN where there is none to measure."""
+
+    builds: list[Build | None]
+    distances: NDArray[np.float64]
+
+    @classmethod
+    def none(cls, count: int) -> _Found:
+        return cls([None] * count, np.full(count, np.nan))
+
+    def parameters(self, otherwise: Sequence[Parameters]) -> list[Parameters]:
+        """Of each build; of ``otherwise`` where there is none."""
+        return [build.parameters if build else values for build, values in zip(self.builds, otherwise, strict=True)]
 
 
-def _train(procedure: Procedure, crew: Workers, settings: Settings, stages: Stages) -> tuple[Predictor, dict[str, Any]]:
-    space = procedure.space
-    vectors = space.sample(settings.samples, seed=settings.seed)
-    stages.begin("sample", len(vectors))
-    builds = crew.build(vectors, stages.step, give_up=True)
-    good, meshes = meshes_of(builds)
-    stages.begin("render", len(meshes))
-    parameters = [build.parameters for build in good]
-    data = make_dataset(space, parameters, meshes, THREE_VIEWS, settings.image_size, settings.workers)
-    training, validation, held_out = (data.take(rows) for rows in split(len(data), settings.seed))
-    schedule = Schedule(settings.epochs, settings.batch, settings.learning_rate, seed=settings.seed)
-    stages.begin("train", settings.epochs)
+def _carried(space: ParameterSpace, references: Collection, previous: Iteration | None) -> list[Parameters | None]:
+    """The parameters that the previous iteration found for each reference, where it had it, in this space."""
+    old = {result.name: result.parameters for result in previous} if previous else {}
+    return [space.carry(values) if (values := old.get(name)) else None for name in references.names]
 
-    def tell(epoch: Epoch) -> None:
-        stages.step(epoch.epoch, settings.epochs, f"validation loss {epoch.validation:.3f}")
 
-    network, curve = train_network(space, training, validation, schedule, tell, settings.workers)
-    metrics = measure(network, space, held_out)
-    failed = [build for build in builds if build.failure]
-    failures = {"failed": len(failed), "failures": describe_failures(failed) if failed else ""}
-    predictor = Predictor(space, network, THREE_VIEWS, settings.image_size, metrics, curve, len(data), settings.workers)
-    return predictor, failures
+def _first_answer(references: Collection, stages: Stages, settings: Settings, samples: Dataset) -> None:
+    """Tell the most similar of the first samples for each reference."""
+    shapes = [reference.shape for reference in references]
+    pictures = render(shapes, samples.cameras, samples.size, threads=settings.workers)
+    rows = nearest(pictures, samples.images)
+    answer = {name: samples.parameters[row] for name, row in zip(references.names, rows, strict=True)}
+    stages.answer(answer, "most similar samples")
 
 
 def _replicate(
     procedure: Procedure,
     crew: Workers,
     judge: Judge,
-    predictor: Predictor,
-    inferred: Sequence[NDArray[np.float32]],
+    lesson: Lesson,
     settings: Settings,
     stages: Stages,
-) -> tuple[list[Build], NDArray[np.float64]]:
-    """The replica of each reference, predicted or refined, whichever is nearer; and its distance."""
+    found: _Found,
+) -> _Found:
+    """Try what is predicted for each reference, and search on from there."""
+    stages.begin("predict", len(found.builds))
+    inferred = lesson.predictor.infer([reference.shape for reference in judge.references])
+    predicted = lesson.predictor.decode(inferred)
     stages.begin("replicate", 1)
-    builds = crew.build(predictor.decode(inferred))
-    distances = judge.distances(builds)
-    if settings.refine == "off":
-        return builds, distances
+    # Of what was found before only that is searched on which is not near yet.
+    known = [build.parameters if build else None for build in found.builds]
+    rows = np.flatnonzero(~(found.distances <= _NEAR * settings.threshold))
+    found = _try(crew, judge, predicted, found)
+    stages.answer(dict(zip(judge.references.names, found.parameters(predicted), strict=True)), "predicted")
+    if settings.refine == "off" or not len(rows):
+        return found
     stages.begin("refine", 1)
-    budget = QUICK if settings.refine == "quick" else THOROUGH
-    vectors = refine(procedure.space, inferred, crew, judge.search_costs, budget, settings.seed, stages.step)
-    refined = crew.build(vectors)
-    nearer = judge.distances(refined)
-    chosen = ~(nearer >= distances)
-    best = [new if better else old for new, old, better in zip(refined, builds, chosen, strict=True)]
-    return best, np.where(chosen, nearer, distances)
+    refined = refine(
+        procedure.space,
+        [column[rows] for column in inferred],
+        crew,
+        lambda pairs: judge.search_costs([(int(rows[i]), mesh) for i, mesh in pairs]),
+        QUICK if settings.refine == "quick" else THOROUGH,
+        settings.seed,
+        [known[i] for i in rows],
+        stages.step,
+    )
+    vectors = found.parameters(predicted)
+    for i, values in zip(rows, refined, strict=True):
+        vectors[i] = values
+    return _try(crew, judge, vectors, found)
+
+
+def _try(crew: Workers, judge: Judge, vectors: Sequence[Parameters], found: _Found) -> _Found:
+    """Build one vector for each reference, and keep it where it is nearer than what was found before."""
+    builds = crew.build(vectors)
+    distances = judge.distances(builds)
+    closer = (distances < found.distances) | (np.isnan(found.distances) & ~np.isnan(distances))
+    better = [old is None or bool(mine) for old, mine in zip(found.builds, closer, strict=True)]
+    chosen = [new if mine else old for mine, new, old in zip(better, builds, found.builds, strict=True)]
+    return _Found(chosen, np.where(better, distances, found.distances))
 
 
 def _results(
@@ -182,28 +226,11 @@ def _error(build: Build, distance: float) -> str | None:
     return "so thin that no view shows it: it cannot be compared" if math.isnan(distance) else None
 
 
-def _limits(settings: Settings) -> Limits:
-    return Limits(settings.shape_seconds, settings.shape_memory_mb)
-
-
 def _describe(procedure: Procedure) -> Mapping[str, Any]:
     source = procedure.source
     return {
         "name": procedure.name,
         "path": str(procedure.path) if procedure.path else None,
         "digest": hashlib.sha256(source.encode()).hexdigest()[:16],
-        "parameters": [_describe_parameter(parameter) for parameter in procedure.space],
-    }
-
-
-def _describe_parameter(parameter: Parameter) -> dict[str, Any]:
-    steps = parameter.steps if isinstance(parameter, Scalar) else None
-    return {
-        "name": parameter.name,
-        "kind": type(parameter).__name__.lower(),
-        "low": getattr(parameter, "low", None),
-        "high": getattr(parameter, "high", None),
-        "steps": list(steps) if isinstance(steps, tuple) else steps,
-        "options": list(getattr(parameter, "options", ())) or None,
-        "default": parameter.default,
+        "parameters": [to_record(parameter) for parameter in procedure.space],
     }

@@ -104,7 +104,9 @@ def fit(
 @app.command()
 def sample(
     procedure: ProcedureArgument,
-    out_dir: Annotated[Path, typer.Option("--out", help="Folder for the shapes, which must not hold any yet.")],
+    out_dir: Annotated[
+        Path, typer.Option("--out", help="Folder for the shapes; one that holds the first of them is gone on with.")
+    ],
     count: Annotated[int, typer.Option("-n", "--count", min=1, help="How many shapes.")] = 10,
     format: Annotated[
         Literal["glb", "ply", "obj", "stl", "off"], typer.Option(help="Kind of file; drawings are written as SVG.")
@@ -113,19 +115,33 @@ def sample(
     workers: Workers = None,
     json: Json = False,
 ) -> None:
-    """Write random shapes of a procedure, and a table of their parameters."""
-    from shapewright.console import print_json
-    from shapewright.sampling import write_samples
+    """Write random shapes of a procedure, and a table of their parameters and soundness."""
+    from shapewright.console import print_json, progress_bars
+    from shapewright.progress import Progress
+    from shapewright.sampling import MANIFEST, write_samples
 
-    written, failures = write_samples(load_procedure(procedure), count, out_dir.absolute(), format, seed, workers)
-    if failures:
-        err.print(f"[yellow]failed:[/] {escape(failures)}", highlight=False)
+    folder = out_dir.absolute()
+    try:
+        with progress_bars(err) as listen:
+            samples = write_samples(
+                load_procedure(procedure),
+                count,
+                folder,
+                format,
+                seed,
+                workers,
+                lambda done, total: listen(Progress("sample", done, total)),
+            )
+    except KeyboardInterrupt:
+        err.print(f"stopped: what {MANIFEST} lists is whole; the same command goes on from there")
+        raise typer.Exit(130) from None
+    if samples.failures:
+        err.print(f"[yellow]failed:[/] {escape(samples.failures)}", highlight=False)
     if json:
-        print_json(
-            {"out": str(out_dir.absolute()), "shapes": written, "manifest": str(out_dir.absolute() / "manifest.csv")}
-        )
+        print_json({"out": str(folder), "manifest": str(folder / MANIFEST), **asdict(samples)})
     else:
-        out.print(f"{written} shapes and manifest.csv in {escape(str(out_dir))}", highlight=False)
+        unsound = f", {samples.unsound} of them unsound," if samples.unsound else ""
+        out.print(f"{samples.shapes} shapes{unsound} and {MANIFEST} in {escape(str(out_dir))}", highlight=False)
 
 
 @app.command()

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from shapewright.comparison.grouping import Group
+from shapewright.prediction.predictor import Predictor
 from shapewright.rendering.thumbnails import thumbnails
 from shapewright.report import write_report
 from shapewright.results import Result, file_names, from_record, to_record
@@ -42,6 +43,7 @@ class Iteration:
     versions: Mapping[str, str]
     created: str
     pictures: Pictures = field(default_factory=dict, repr=False)
+    predictor: Predictor | None = field(default=None, repr=False)
 
     @cached_property
     def _by_name(self) -> dict[str, Result]:
@@ -121,6 +123,7 @@ class Iteration:
             versions=record["versions"],
             created=record["created"],
             pictures={entry["name"]: _read_pictures(folder, entry["slug"]) for entry in record["references"]},
+            predictor=Predictor.load(folder / "predictor.pt") if (folder / "predictor.pt").exists() else None,
         )
 
     def _write(self, folder: Path) -> None:
@@ -129,6 +132,8 @@ class Iteration:
         found = {result.name: result.parameters for result in self.results}
         (folder / "parameters.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
         self._write_csv(folder / "parameters.csv")
+        if self.predictor:
+            self.predictor.save(folder / "predictor.pt")
         (folder / "replicas").mkdir()
         (folder / "thumbnails").mkdir()
         pictures = self.pictures or draw_pictures(self.results)

@@ -237,6 +237,14 @@ class ParameterSpace:
         active = set(self.active(values))
         return {p.name: values[p.name] if p.name in active else p.default for p in self.parameters}
 
+    def carry(self, values: Mapping[str, Value], otherwise: Mapping[str, Value] | None = None) -> Parameters:
+        """Values of another version of the procedure, for this one: what still exists stays, at the nearest value.
+
+        A parameter that is new, or whose value is no longer an option, is as in ``otherwise``, by default its default.
+        """
+        fallback = {**self.defaults, **(otherwise or {})}
+        return self.canonical({p.name: _nearest(p, values.get(p.name), fallback[p.name]) for p in self.parameters})
+
     def sample(self, count: int, seed: int = 0) -> list[Parameters]:
         """Draw ``count`` different vectors at random; all of them, shuffled, when the space holds no more.
 
@@ -271,6 +279,14 @@ class ParameterSpace:
             vectors = [{**vector, parameter.name: level} for vector in vectors for level in parameter.levels or ()]
         canonical = (self.canonical(vector) for vector in vectors)
         return list({tuple(vector.values()): vector for vector in canonical}.values())
+
+
+def _nearest(parameter: Parameter, value: Value | None, otherwise: Value) -> Value:
+    if isinstance(parameter, Scalar | Integer):
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            return parameter.decode(parameter.encode(value))
+        return otherwise
+    return value if value in (parameter.levels or ()) and value is not None else otherwise
 
 
 def _holds(parameter: Parameter, namespace: SimpleNamespace) -> bool:

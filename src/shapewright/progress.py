@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from shapewright.parameters import Parameters
 
 
 @dataclass(frozen=True)
 class Progress:
-    """A stage of an iteration: how many of its steps are done, and a remark."""
+    """A stage of an iteration: how many of its steps are done, and a remark.
+
+    answer: the parameters of every reference as far as they are known by now, when these are news.
+    """
 
     stage: str
     done: int
     total: int
     remark: str = ""
+    answer: Mapping[str, Parameters] | None = field(default=None, repr=False)
 
     def __str__(self) -> str:
         return f"{self.stage} {self.done}/{self.total}{' ' + self.remark if self.remark else ''}"
@@ -30,6 +36,8 @@ class Stages:
 
     def __init__(self, listener: Listener | None) -> None:
         self.seconds: dict[str, float] = {}
+        self.first_answer: float | None = None
+        self._created = time.perf_counter()
         self._listener = listener
         self._stage = ""
         self._started = self._told = 0.0
@@ -45,7 +53,15 @@ class Stages:
             self._told = now
             self._listener(Progress(self._stage, done, total, remark))
 
+    def answer(self, answer: Mapping[str, Parameters], remark: str) -> None:
+        """Tell the parameters found so far; never held back."""
+        if self.first_answer is None:
+            self.first_answer = time.perf_counter() - self._created
+        if self._listener:
+            self._listener(Progress(self._stage, 1, 1, remark, answer))
+
     def end(self) -> None:
         if self._stage:
-            self.seconds[self._stage] = time.perf_counter() - self._started
+            spent = time.perf_counter() - self._started
+            self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + spent
             self._stage = ""

@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 if TYPE_CHECKING:
     import shapely
 
+    from shapewright.soundness import Soundness
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -107,6 +109,12 @@ class Mesh:
 
     def normalised(self) -> Mesh:
         return replace(self, vertices=self.normalisation().apply(self.vertices))
+
+    def soundness(self) -> Soundness:
+        """Whether the mesh is closed, manifold, oriented, free of self-intersections and slivers; and its parts."""
+        from shapewright.soundness import soundness
+
+        return soundness(self)
 
     def __repr__(self) -> str:
         return f"Mesh({len(self.vertices)} vertices, {len(self.faces)} faces)"

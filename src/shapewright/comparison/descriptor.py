@@ -15,7 +15,7 @@ from shapewright.comparison.dodecahedra import LIGHT_FIELDS, VIEWS, directions
 from shapewright.comparison.least_cost import Weighted, by_coefficient, weighted
 from shapewright.comparison.regions import ART
 from shapewright.rendering.silhouettes_raster import SIZE, draw, view_axes
-from shapewright.shapes import Drawing, Mesh
+from shapewright.shapes import Mesh
 
 Bytes = NDArray[np.uint8]
 
@@ -67,7 +67,7 @@ def describe(mesh: Mesh, bits: int = 4) -> Descriptor:
     bits: of the ART coefficients, 4 or 8. Raises ValueError for any other number, and for a mesh that has no
     faces, no size, or none that a double can hold, or that covers no pixel in any view, as a line does.
     """
-    if isinstance(mesh, Drawing):
+    if not isinstance(mesh, Mesh):
         raise TypeError("the light field compares meshes; drawings are compared by shapewright.outline")
     transform = mesh.normalisation()
     if not (math.isfinite(transform.scale) and transform.scale > 0.0 and np.isfinite(transform.centre).all()):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,23 +18,43 @@ from shapewright.shapes import Mesh
 
 @dataclass(frozen=True, eq=False)
 class Dataset:
-    """Pictures of shapes and the parameters that built them.
+    """Shapes, their pictures, and the parameters that built them.
 
     parameters: N vectors in the procedure's units. targets: (N, P) float32, encoded. active: (N, P) bool, whether the
-    parameter matters there. images: (N, C, 2, S, S) uint8.
+    parameter matters there. images: (N, C, 2, S, S) uint8. meshes: N, normalised. cameras: C, that took the images.
     """
 
     parameters: list[Parameters]
     targets: NDArray[np.float32]
     active: NDArray[np.bool_]
     images: NDArray[np.uint8]
+    meshes: list[Mesh]
+    cameras: tuple[Camera, ...]
 
     def __len__(self) -> int:
         return len(self.parameters)
 
+    @property
+    def size(self) -> int:
+        """Pixels along a side of an image."""
+        return int(self.images.shape[-1])
+
     def take(self, indices: NDArray[np.int64]) -> Dataset:
-        rows = [self.parameters[i] for i in indices]
-        return Dataset(rows, self.targets[indices], self.active[indices], self.images[indices])
+        return replace(
+            self,
+            parameters=[self.parameters[i] for i in indices],
+            targets=self.targets[indices],
+            active=self.active[indices],
+            images=self.images[indices],
+            meshes=[self.meshes[i] for i in indices],
+        )
+
+    def seen_by(self, cameras: Sequence[Camera], threads: int | None = None) -> Dataset:
+        """The same shapes in pictures that other cameras take; itself when the cameras are the same."""
+        if tuple(cameras) == self.cameras:
+            return self
+        images = render(self.meshes, cameras, self.size, threads=threads)
+        return replace(self, images=images, cameras=tuple(cameras))
 
 
 def meshes_of(builds: Sequence[Build]) -> tuple[list[Build], list[Mesh]]:
@@ -58,7 +78,21 @@ def make_dataset(
     """Render normalised meshes from every camera and encode their parameters."""
     active = np.array([[name in set(space.active(values)) for name in space.names] for values in parameters])
     targets = np.array([space.encode(values) for values in parameters], dtype=np.float32)
-    return Dataset(list(parameters), targets, active, render(meshes, cameras, size, threads=threads))
+    images = render(meshes, cameras, size, threads=threads)
+    return Dataset(list(parameters), targets, active, images, list(meshes), tuple(cameras))
+
+
+def join(parts: Sequence[Dataset]) -> Dataset:
+    """The rows of several datasets that the same cameras took."""
+    first = parts[0]
+    return replace(
+        first,
+        parameters=[values for part in parts for values in part.parameters],
+        targets=np.concatenate([part.targets for part in parts]),
+        active=np.concatenate([part.active for part in parts]),
+        images=np.concatenate([part.images for part in parts]),
+        meshes=[mesh for part in parts for mesh in part.meshes],
+    )
 
 
 def split(count: int, seed: int, shares: tuple[float, float] = (0.8, 0.1)) -> tuple[NDArray[np.int64], ...]:

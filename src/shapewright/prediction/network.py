@@ -1,22 +1,27 @@
-"""The network: features of several views, and an independent head for each parameter."""
+"""Networks: pictures of a shape in, one answer for each parameter out; and what they are taught by."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Literal, TypeAlias
 
 from torch import Tensor, nn
 from torch.nn import functional
 
-from shapewright.parameters import ParameterSpace
+from shapewright.parameters import Parameter, ParameterSpace
+from shapewright.prediction.heads import Heads
+from shapewright.prediction.vgg import VGG19Network
 
+NetworkName: TypeAlias = Literal["compact", "vgg19"]
 WIDTHS = (32, 64, 96, 128)
+_LOG_SPREAD = (-9.0, 2.0)
 
 
 class CompactNetwork(nn.Module):
     """A strided CNN over the stacked views and one MLP a parameter, small enough to train on a CPU in a minute.
 
-    Takes images (B, C, 2, S, S) in [0, 1]; gives a list with one tensor a parameter: (B, 1) for a scalar, the encoded
-    value, or (B, classes) logits for an integer, choice or binary (paper section 4.2: an independent MLP each).
+    Takes images (B, C, 2, S, S) in [0, 1], S a multiple of 16; gives what Heads gives.
     """
 
     def __init__(self, space: ParameterSpace, views: int, size: int = 64, width: int = 128) -> None:
@@ -28,14 +33,18 @@ class CompactNetwork(nn.Module):
             channels = out
         side = size // 2 ** len(WIDTHS)
         self.features = nn.Sequential(*layers, nn.Flatten(), nn.Linear(channels * side * side, 2 * width), nn.GELU())
-        self.heads = nn.ModuleList(
-            nn.Sequential(nn.Linear(2 * width, width), nn.GELU(), nn.Linear(width, max(parameter.classes, 1)))
-            for parameter in space
-        )
+        self.heads = Heads(space, 2 * width, width)
 
     def forward(self, images: Tensor) -> list[Tensor]:
-        features = self.features(images.flatten(1, 2))
-        return [head(features) for head in self.heads]
+        answers: list[Tensor] = self.heads(self.features(images.flatten(1, 2)))
+        return answers
+
+
+def make_network(
+    name: NetworkName, space: ParameterSpace, views: int, size: int, weights: Path | None = None
+) -> nn.Module:
+    """A network fresh from torch's random numbers; weights: a file of VGG19's, see vgg.VGG19Network."""
+    return CompactNetwork(space, views, size) if name == "compact" else VGG19Network(space, views, size, weights)
 
 
 def loss(space: ParameterSpace, outputs: Sequence[Tensor], targets: Tensor, active: Tensor) -> Tensor:
@@ -44,11 +53,31 @@ def loss(space: ParameterSpace, outputs: Sequence[Tensor], targets: Tensor, acti
     targets, active: (B, P). Paper section 4.2.
     """
     total = targets.new_zeros(())
-    for column, (parameter, output) in enumerate(zip(space, outputs, strict=True)):
-        target, weight = targets[:, column], active[:, column].float()
+    for parameter, output, target, weight in _columns(space, outputs, targets, active):
         if parameter.classes:
-            each = functional.cross_entropy(output.float(), target.long(), reduction="none")
+            each = functional.cross_entropy(output, target.long(), reduction="none")
         else:
-            each = (output[:, 0].float() - target).abs()
-        total = total + (each * weight).sum() / weight.sum().clamp(min=1.0)
+            each = (output[:, 0] - target).abs()
+        total = total + _mean(each, weight)
     return total
+
+
+def spread_loss(space: ParameterSpace, outputs: Sequence[Tensor], targets: Tensor, active: Tensor) -> Tensor:
+    """Sum over scalars of the Laplace negative log-likelihood of the errors made, the values taken as given."""
+    total = targets.new_zeros(())
+    for parameter, output, target, weight in _columns(space, outputs, targets, active):
+        if not parameter.classes:
+            error, log_spread = (output[:, 0].detach() - target).abs(), output[:, 1].clamp(*_LOG_SPREAD)
+            total = total + _mean(error * (-log_spread).exp() + log_spread, weight)
+    return total
+
+
+def _columns(
+    space: ParameterSpace, outputs: Sequence[Tensor], targets: Tensor, active: Tensor
+) -> Iterator[tuple[Parameter, Tensor, Tensor, Tensor]]:
+    for column, (parameter, output) in enumerate(zip(space, outputs, strict=True)):
+        yield parameter, output.float(), targets[:, column], active[:, column].float()
+
+
+def _mean(each: Tensor, weight: Tensor) -> Tensor:
+    return (each * weight).sum() / weight.sum().clamp(min=1.0)

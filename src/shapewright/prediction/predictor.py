@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
+from pathlib import Path
 
 import numpy as np
+import torch
 from numpy.typing import NDArray
+from torch import nn
 
 from shapewright.parameters import Parameters, ParameterSpace
-from shapewright.prediction.network import CompactNetwork
-from shapewright.prediction.training import Epoch, Metrics, infer, torch_threads
+from shapewright.prediction.devices import torch_threads
+from shapewright.prediction.evaluation import Inference, Metrics, infer
+from shapewright.prediction.network import CompactNetwork, make_network
+from shapewright.prediction.training import Epoch
+from shapewright.records import from_record, to_record
 from shapewright.rendering.cameras import Camera
 from shapewright.rendering.raster import render
 from shapewright.shapes import Mesh
@@ -24,7 +30,7 @@ class Predictor:
     """
 
     space: ParameterSpace
-    network: CompactNetwork
+    network: nn.Module
     cameras: tuple[Camera, ...]
     size: int
     metrics: Metrics
@@ -32,12 +38,39 @@ class Predictor:
     samples: int
     threads: int | None = None
 
+    def save(self, path: Path) -> None:
+        """Write what another iteration can go on from: space, network, cameras; no parameter's ``when``."""
+        record = {
+            "network": "compact" if isinstance(self.network, CompactNetwork) else "vgg19",
+            "state": {name: tensor.cpu() for name, tensor in self.network.state_dict().items()},
+            "space": [to_record(parameter) for parameter in self.space],
+            "cameras": [list(astuple(camera)) for camera in self.cameras],
+            "size": self.size,
+            "samples": self.samples,
+            "metrics": self.metrics,
+        }
+        torch.save(record, path)
+
+    @classmethod
+    def load(cls, path: Path) -> Predictor:
+        """Read what ``save`` wrote; the curve is in the run's record. Raises OSError or RuntimeError for a bad file."""
+        record = torch.load(path, map_location="cpu", weights_only=True)
+        space = ParameterSpace(tuple(from_record(parameter) for parameter in record["space"]))
+        cameras = tuple(Camera(*values) for values in record["cameras"])
+        network = make_network(record["network"], space, len(cameras), record["size"])
+        network.load_state_dict(record["state"])
+        return cls(space, network.eval(), cameras, record["size"], record["metrics"], [], record["samples"])
+
     def predict(self, shapes: Sequence[Mesh]) -> list[Parameters]:
         """The parameters for each mesh, which need not be normalised."""
         return self.decode(self.infer(shapes))
 
     def infer(self, shapes: Sequence[Mesh]) -> list[NDArray[np.float32]]:
         """For each parameter (N,) encoded values of a scalar, or (N, classes) probabilities."""
+        return self.infer_with_spread(shapes).values
+
+    def infer_with_spread(self, shapes: Sequence[Mesh]) -> Inference:
+        """What ``infer`` gives, and how far off each scalar may be."""
         images = render([shape.normalised() for shape in shapes], self.cameras, self.size, threads=self.threads)
         with torch_threads(self.threads):
             return infer(self.network, self.space, images)

@@ -70,22 +70,23 @@ def refine(
     measure: Measure,
     budget: Budget = QUICK,
     seed: int = 0,
+    known: Sequence[Parameters | None] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Parameters]:
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
-    inferred: per parameter (N,) encoded scalars or (N, classes) probabilities, as the predictor gives. The cost never
-    rises above that of the prediction. A reference's result does not depend on the other references.
+    inferred: per parameter (N,) encoded scalars or (N, classes) probabilities, as the predictor gives. known:
+    parameters to start from as well, such as those of the previous iteration. The cost never rises above that of the
+    prediction. A reference's result does not depend on the other references.
     """
     count = len(inferred[0])
     widest = max(arms for arms, _ in budget.rungs)
-    searches = [
-        _Search(
-            [_Arm(centre) for centre in likeliest(space, [column[i] for column in inferred], widest)],
-            np.random.default_rng([seed, i]),
-        )
-        for i in range(count)
-    ]
+    searches = []
+    for i in range(count):
+        starts = likeliest(space, [column[i] for column in inferred], widest)
+        if known and (given := known[i]) is not None:
+            starts = [*starts[: widest - 1], space.encode(given)]
+        searches.append(_Search([_Arm(centre) for centre in starts], np.random.default_rng([seed, i])))
     scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
     for number, (arms, points) in enumerate(budget.rungs):
         asked: list[tuple[int, _Arm, Floats]] = []

@@ -1,30 +1,36 @@
-"""Training the network on sampled shapes, and measuring it on rows it has not seen."""
+"""Training the network on sampled shapes, and the cameras it looks through where they are learned."""
 
 from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, TypeAlias
+from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from sklearn.metrics import f1_score
-from torch import Tensor
+from torch import nn
 
-from shapewright.building import cores
 from shapewright.parameters import ParameterSpace
+from shapewright.prediction.camera_learning import LearnedCameras, camera_gradient
 from shapewright.prediction.dataset import Dataset
-from shapewright.prediction.network import CompactNetwork, loss
+from shapewright.prediction.devices import DeviceName, autocast, pick, torch_threads
+from shapewright.prediction.evaluation import calibrate, outputs
+from shapewright.prediction.network import NetworkName, loss, make_network, spread_loss
+from shapewright.rendering.cameras import Camera
+from shapewright.rendering.raster import render
+from shapewright.threads import cores
 
-SHARDS = 2
+Rows = NDArray[np.int64]
 
-Metrics: TypeAlias = dict[str, dict[str, Any]]
+_SHARDS = 2
+_CAMERA_ROWS = 8
+_CAMERA_SHARE = 0.5
 
 
 @dataclass(frozen=True)
@@ -38,13 +44,33 @@ class Epoch:
 
 @dataclass(frozen=True)
 class Schedule:
-    """How to train: AdamW, learning rate up over the first tenth of the steps and down along a cosine."""
+    """What to train, and how.
+
+    weights: a file of VGG19's, see vgg.VGG19Network. optimiser: "adamw", whose learning rate rises over the first tenth
+    of the steps and falls along a cosine, or "adam" at a constant rate, the paper's. camera_rate: learning rate of the
+    cameras in radians and units of distance, 0 where they are fixed. With "adamw" they move in the first half of the
+    epochs, and the network settles in the rest; with "adam" they move throughout.
+    """
 
     epochs: int = 30
     batch: int = 64
     learning_rate: float = 2e-3
     weight_decay: float = 1e-2
+    optimiser: Literal["adamw", "adam"] = "adamw"
+    camera_rate: float = 0.0
+    network: NetworkName = "compact"
+    weights: Path | None = None
+    device: DeviceName = "cpu"
     seed: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Trained:
+    """A network in evaluation mode, the cameras it has learned to look through, and the loss by epoch."""
+
+    network: nn.Module
+    cameras: tuple[Camera, ...]
+    curve: list[Epoch]
 
 
 def train_network(
@@ -54,61 +80,130 @@ def train_network(
     schedule: Schedule,
     progress: Callable[[Epoch], None] | None = None,
     threads: int | None = None,
-) -> tuple[CompactNetwork, list[Epoch]]:
-    """A trained network in evaluation mode, and its curve.
+    initial: nn.Module | None = None,
+) -> Trained:
+    """Train a network on shapes as the dataset's cameras see them, and where they are learned, these cameras too.
 
-    Every batch is computed as two fixed shards, each on its own thread, whose gradients are averaged: on few cores that
-    is faster than torch's own threads, far more so when other programs are busy, and the result does not depend on
-    whether the shards ran side by side. The same seed, threads and machine give the same weights.
+    initial: a network to start from, where its layers match by name and shape; the others start fresh.
+
+    On a CPU every batch is computed as two fixed shards, each on its own thread, whose gradients are averaged: on few
+    cores that is faster than torch's own threads, far more so when other programs are busy, and the result does not
+    depend on whether the shards ran side by side. The same seed, threads and machine give the same weights.
     """
     curve: list[Epoch] = []
+    device = pick(schedule.device)
     threads = threads or cores()
+    count = _SHARDS if device.type == "cpu" else 1
+    each = max(1, threads // count)
     batches = math.ceil(len(training) / schedule.batch)
+    moving = _epochs_of_cameras(schedule)
+    cameras = LearnedCameras(
+        training.cameras, schedule.camera_rate, moving * batches, constant=schedule.optimiser == "adam"
+    )
     rng = np.random.default_rng(schedule.seed)
-    with torch_threads(max(1, threads // SHARDS)), torch.random.fork_rng(devices=[]):
-        torch.manual_seed(schedule.seed)
-        network = CompactNetwork(space, training.images.shape[1], training.images.shape[-1])
-        shards = [network, *(_sharing_weights(network) for _ in range(SHARDS - 1))]
-        optimiser = torch.optim.AdamW(
-            network.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay
-        )
-        rates = torch.optim.lr_scheduler.OneCycleLR(
-            optimiser, schedule.learning_rate, total_steps=schedule.epochs * batches, pct_start=0.1
-        )
-
-        def backward(shard: CompactNetwork, rows: NDArray[np.int64]) -> float:
-            images, targets, active = _tensors(training, rows)
-            with torch.autocast("cpu", torch.bfloat16, enabled=_fast_bfloat16()):
-                outputs = shard(images)
-            value = loss(space, outputs, targets, active)
-            shard.zero_grad()
-            value.backward()  # type: ignore[no-untyped-call]
-            return value.item()
-
-        limit = partial(torch.set_num_threads, max(1, threads // SHARDS))
-        with ThreadPoolExecutor(min(threads, SHARDS), initializer=limit) as pool:
+    exact = torch.backends.cudnn.flags(enabled=True, benchmark=False, deterministic=True)
+    with torch_threads(each), torch.random.fork_rng(devices=[]), exact:
+        torch.default_generator.manual_seed(schedule.seed)
+        views, size = training.images.shape[1], training.size
+        network = make_network(schedule.network, space, views, size, schedule.weights)
+        if initial is not None:
+            _inherit(network, initial)
+        network.to(device)
+        shards = [network, *(_sharing_weights(network) for _ in range(count - 1))]
+        optimiser, rates = _optimiser(network, schedule, schedule.epochs * batches)
+        with ThreadPoolExecutor(min(threads, count), initializer=partial(torch.set_num_threads, each)) as pool:
             for epoch in range(1, schedule.epochs + 1):
                 network.train()
                 losses: list[float] = []
                 for rows in np.array_split(rng.permutation(len(training)), batches):
-                    losses += pool.map(backward, shards, np.array_split(rows, SHARDS))
+                    through = cameras.cameras if epoch <= moving else None
+                    backward = partial(_backward, space, training, through, each)
+                    results = list(pool.map(backward, shards, np.array_split(rows, count)))
                     _average_gradients(shards)
                     optimiser.step()
                     rates.step()
+                    losses += [value for value, _ in results]
+                    gradients = [gradient for _, gradient in results if gradient is not None]
+                    if gradients:
+                        cameras.step(np.mean(gradients, axis=0))
+                validation = validation.seen_by(cameras.cameras, threads)
+                if epoch == moving:
+                    training = training.seen_by(cameras.cameras, threads)
                 curve.append(Epoch(epoch, float(np.mean(losses)), _validation_loss(space, network, validation)))
                 if progress:
                     progress(curve[-1])
-    return network.eval(), curve
+        calibrate(network, space, validation)
+    return Trained(network.eval(), cameras.cameras, curve)
 
 
-def _sharing_weights(network: CompactNetwork) -> CompactNetwork:
+def _epochs_of_cameras(schedule: Schedule) -> int:
+    if not schedule.camera_rate:
+        return 0
+    return schedule.epochs if schedule.optimiser == "adam" else math.ceil(schedule.epochs * _CAMERA_SHARE)
+
+
+def _optimiser(
+    network: nn.Module, schedule: Schedule, steps: int
+) -> tuple[torch.optim.Optimizer, torch.optim.lr_scheduler.LRScheduler]:
+    kind = torch.optim.Adam if schedule.optimiser == "adam" else torch.optim.AdamW
+    optimiser = kind(network.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay)
+    if schedule.optimiser == "adam":
+        return optimiser, torch.optim.lr_scheduler.ConstantLR(optimiser, factor=1.0)
+    return optimiser, torch.optim.lr_scheduler.OneCycleLR(
+        optimiser, schedule.learning_rate, total_steps=steps, pct_start=0.1
+    )
+
+
+def _inherit(network: nn.Module, initial: nn.Module) -> None:
+    """Take over what the two networks share by name and shape."""
+    mine, theirs = network.state_dict(), initial.state_dict()
+    shared = {name: theirs[name] for name in mine if name in theirs and mine[name].shape == theirs[name].shape}
+    network.load_state_dict(mine | shared)
+
+
+def _sharing_weights(network: nn.Module) -> nn.Module:
     twin = copy.deepcopy(network)
     for mine, theirs in zip(twin.parameters(), network.parameters(), strict=True):
         mine.data = theirs.data
     return twin
 
 
-def _average_gradients(shards: list[CompactNetwork]) -> None:
+def _backward(
+    space: ParameterSpace,
+    data: Dataset,
+    cameras: tuple[Camera, ...] | None,
+    threads: int,
+    shard: nn.Module,
+    rows: Rows,
+) -> tuple[float, NDArray[np.float64] | None]:
+    """Leave the gradient of the loss on these rows with the shard; returns the loss.
+
+    cameras: where they are learned, their present places, from which the shapes are then seen; the gradient of the
+    loss by their positions comes back too, estimated on the first rows.
+    """
+    device = next(shard.parameters()).device
+    images = data.images[rows] if cameras is None else _render(data, rows, cameras, threads)
+    pictures = torch.from_numpy(images).to(device).float() / 255.0
+    pictures.requires_grad_(cameras is not None)
+    targets, active = (torch.from_numpy(values[rows]).to(device) for values in (data.targets, data.active))
+    with autocast(device):
+        answers = shard(pictures)
+    value = loss(space, answers, targets, active)
+    shard.zero_grad()
+    (value + spread_loss(space, answers, targets, active)).backward()  # type: ignore[no-untyped-call]
+    if cameras is None or pictures.grad is None:
+        return value.item(), None
+    some = rows[:_CAMERA_ROWS]
+    by_pixel = pictures.grad[: len(some)].cpu().numpy()
+    gradient = camera_gradient([data.meshes[i] for i in some], cameras, by_pixel, threads=threads)
+    return value.item(), gradient * (len(rows) / len(some))
+
+
+def _render(data: Dataset, rows: Rows, cameras: tuple[Camera, ...], threads: int) -> NDArray[np.uint8]:
+    return render([data.meshes[i] for i in rows], cameras, data.size, threads=threads)
+
+
+def _average_gradients(shards: list[nn.Module]) -> None:
     """Leave the mean of the shards' gradients with the first."""
     for first, *others in zip(*(shard.parameters() for shard in shards), strict=True):
         assert first.grad is not None
@@ -117,76 +212,8 @@ def _average_gradients(shards: list[CompactNetwork]) -> None:
         first.grad /= len(shards)
 
 
-def infer(network: CompactNetwork, space: ParameterSpace, images: NDArray[np.uint8]) -> list[NDArray[np.float32]]:
-    """For each parameter (N,) encoded values of a scalar, or (N, classes) probabilities. images: (N, C, 2, S, S)."""
-    network.eval()
-    columns: list[list[Tensor]] = [[] for _ in space]
-    with torch.inference_mode():
-        for start in range(0, len(images), 256):
-            outputs = network(torch.from_numpy(images[start : start + 256]).float() / 255.0)
-            for column, parameter, output in zip(columns, space, outputs, strict=True):
-                column.append(output.softmax(dim=1) if parameter.classes else output[:, 0].clamp(0.0, 1.0))
-    return [torch.cat(column).numpy() for column in columns]
-
-
-def measure(network: CompactNetwork, space: ParameterSpace, held_out: Dataset) -> Metrics:
-    """Per parameter over the rows where it matters: MAE of a scalar (normalised to [0, 1]), else F1 and accuracy.
-
-    F1 is the mean over the classes that occur (paper section 5.1).
-    """
-    return score(space, infer(network, space, held_out.images), held_out.targets, held_out.active)
-
-
-def score(
-    space: ParameterSpace,
-    predicted: list[NDArray[np.float32]],
-    targets: NDArray[np.float32],
-    active: NDArray[np.bool_],
-) -> Metrics:
-    """The metrics of ``measure`` for given predictions; targets and active are (N, P)."""
-    metrics: Metrics = {}
-    for column, (parameter, values) in enumerate(zip(space, predicted, strict=True)):
-        rows = active[:, column]
-        truth, kind = targets[rows, column], type(parameter).__name__.lower()
-        if not rows.any():
-            metrics[parameter.name] = {"kind": kind, "rows": 0}
-        elif parameter.classes:
-            guess = values[rows].argmax(axis=1)
-            f1 = f1_score(truth.astype(int), guess, labels=np.unique(truth.astype(int)), average="macro")
-            accuracy = float((guess == truth).mean())
-            metrics[parameter.name] = {"kind": kind, "rows": int(rows.sum()), "f1": float(f1), "accuracy": accuracy}
-        else:
-            mae = float(np.abs(values[rows] - truth).mean())
-            metrics[parameter.name] = {"kind": kind, "rows": int(rows.sum()), "mae": mae}
-    return metrics
-
-
-@contextmanager
-def torch_threads(threads: int | None) -> Iterator[None]:
-    """Run torch on this many threads (all cores by default), and put the number back afterwards."""
-    before = torch.get_num_threads()
-    torch.set_num_threads(threads or cores())
-    try:
-        yield
-    finally:
-        torch.set_num_threads(before)
-
-
-def _tensors(data: Dataset, rows: NDArray[np.int64]) -> tuple[Tensor, Tensor, Tensor]:
-    images = torch.from_numpy(data.images[rows]).float() / 255.0
-    return images, torch.from_numpy(data.targets[rows]), torch.from_numpy(data.active[rows])
-
-
-def _validation_loss(space: ParameterSpace, network: CompactNetwork, validation: Dataset) -> float:
+def _validation_loss(space: ParameterSpace, network: nn.Module, validation: Dataset) -> float:
     if not len(validation):
         return math.nan
-    network.eval()
-    with torch.inference_mode():
-        images, targets, active = _tensors(validation, np.arange(len(validation)))
-        return float(loss(space, network(images), targets, active))
-
-
-def _fast_bfloat16() -> bool:
-    """Whether this CPU multiplies bfloat16 in hardware; where it does not, autocast would slow training down."""
-    supported = getattr(torch.cpu, "_is_avx512_bf16_supported", lambda: False)
-    return bool(supported())
+    targets, active = torch.from_numpy(validation.targets), torch.from_numpy(validation.active)
+    return float(loss(space, outputs(network, validation.images), targets, active))

@@ -1,10 +1,10 @@
-"""Cameras: where the views of a shape are taken from."""
+"""Cameras: where the views of a shape are taken from, and how that place is written as numbers."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +39,36 @@ class Camera:
 
 THREE_VIEWS = (Camera(35.0, 25.0), Camera(0.0, 5.0), Camera(90.0, 15.0))
 THUMBNAIL = Camera(35.0, 25.0, distance=3.6, field_of_view=27.5)
+
+_FURTHER = ((215.0, 25.0), (125.0, -20.0), (300.0, 55.0))
+_GOLDEN_ANGLE = 180.0 * (3.0 - math.sqrt(5.0))
+_ELEVATION, _DISTANCE = math.radians(85.0), (1.8, 6.0)
+
+
+def starting_views(count: int = 3, distance: float = 2.6) -> tuple[Camera, ...]:
+    """Cameras in ``count`` places: three-quarter, front, side, then behind, below, above, and all round."""
+    known = [(camera.azimuth, camera.elevation) for camera in THREE_VIEWS] + list(_FURTHER)
+    around = [((_GOLDEN_ANGLE * i) % 360.0, 60.0 * math.sin(i)) for i in range(len(known), count)]
+    return tuple(Camera(azimuth, elevation, distance) for azimuth, elevation in (known + around)[:count])
+
+
+def positions(cameras: Sequence[Camera]) -> NDArray[np.float64]:
+    """(C, 3): azimuth and elevation in radians, and distance. Numbers of like size, fit to be optimised."""
+    return np.array([[math.radians(c.azimuth), math.radians(c.elevation), c.distance] for c in cameras])
+
+
+def placed(cameras: Sequence[Camera], positions: NDArray[np.float64]) -> tuple[Camera, ...]:
+    """The cameras at other positions (C, 3), the inverse of ``positions``."""
+    return tuple(
+        replace(camera, azimuth=math.degrees(azimuth), elevation=math.degrees(elevation), distance=float(distance))
+        for camera, (azimuth, elevation, distance) in zip(cameras, positions, strict=True)
+    )
+
+
+def within_reach(positions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The nearest positions (C, 3) that are short of the poles, clear of the shape and not too far from it."""
+    lowest, highest = (-np.inf, -_ELEVATION, _DISTANCE[0]), (np.inf, _ELEVATION, _DISTANCE[1])
+    return np.clip(positions, lowest, highest)
 
 
 def pack(cameras: Sequence[Camera]) -> NDArray[np.float64]:

@@ -1,0 +1,173 @@
+"""Learning a procedure: sample it, build and draw the samples, train a predictor on them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from shapewright.building import Build, Limits, Workers, describe_failures
+from shapewright.parameters import Parameters
+from shapewright.prediction.dataset import Dataset, join, make_dataset, meshes_of, split
+from shapewright.prediction.devices import pick
+from shapewright.prediction.evaluation import measure
+from shapewright.prediction.predictor import Predictor
+from shapewright.prediction.sensitivity import without_effect
+from shapewright.prediction.training import Epoch, Schedule, train_network
+from shapewright.prediction.vgg import find_weights
+from shapewright.procedure import Procedure
+from shapewright.progress import Listener, Stages
+from shapewright.rendering.cameras import Camera, starting_views
+from shapewright.settings import Settings
+
+FIRST = 256
+"""Samples that are built and drawn before all others, for the first answer."""
+Watcher = Callable[[Dataset], object]
+
+
+@dataclass(frozen=True, eq=False)
+class Lesson:
+    """A trained predictor, the samples it learned from and was measured on, and what is worth recording."""
+
+    predictor: Predictor
+    training: Dataset
+    validation: Dataset
+    held_out: Dataset
+    facts: dict[str, Any]
+
+
+def train(procedure: Procedure, settings: Settings | None = None, progress: Listener | None = None) -> Predictor:
+    """Sample the procedure and train a predictor of its parameters. Raises ProcedureError as ``fit`` does."""
+    settings = settings or Settings()
+    stages = Stages(progress)
+    with Workers(procedure, settings.workers, limits_of(settings)) as crew:
+        lesson = learn(procedure, crew, settings, stages)
+    stages.end()
+    return lesson.predictor
+
+
+def learn(
+    procedure: Procedure,
+    crew: Workers,
+    settings: Settings,
+    stages: Stages,
+    previous: Predictor | None = None,
+    watch: Watcher | None = None,
+) -> Lesson:
+    """Train on random samples of the whole space.
+
+    previous: a predictor of an earlier version of the procedure, whose network and cameras are gone on from. watch:
+    called with the first FIRST samples as soon as they are drawn.
+    """
+    space = procedure.space
+    vectors = space.sample(settings.samples, seed=settings.seed)
+    cameras = starting_views(settings.views, settings.camera_distance)
+    if previous and len(previous.cameras) == settings.views:
+        cameras = previous.cameras
+    stages.begin("sample", len(vectors))
+    builds = crew.build(vectors[:FIRST], give_up=True)
+    first = _draw(procedure, builds, cameras, settings)
+    if watch:
+        watch(first)
+    builds += crew.build(vectors[FIRST:], lambda done, total: stages.step(FIRST + done, FIRST + total))
+    inert = without_effect(space, meshes_of(builds)[0], crew.build, settings.seed, settings.workers)
+    stages.begin("render", len(vectors))
+    data = join([first, _draw(procedure, builds[FIRST:], cameras, settings)]) if builds[FIRST:] else first
+    parts = [data.take(rows) for rows in split(len(data), settings.seed)]
+    failed = [build for build in builds if build.failure]
+    facts = {
+        "failed": len(failed),
+        "failures": describe_failures(failed) if failed else "",
+        "without_effect": inert,
+        "cameras": {"before": _places(cameras)},
+        "device": pick(settings.device).type,
+    }
+    epochs = settings.warm_epochs if previous else settings.epochs
+    return _train(procedure, parts, facts, settings, epochs, stages, previous)
+
+
+def learn_more(
+    procedure: Procedure,
+    crew: Workers,
+    settings: Settings,
+    stages: Stages,
+    lesson: Lesson,
+    vectors: Sequence[Parameters],
+) -> Lesson:
+    """Go on training with further samples; those that predictions are measured on stay the same."""
+    stages.begin("sample", len(vectors))
+    builds = crew.build(vectors, stages.step)
+    stages.begin("render", len(vectors))
+    seen = {tuple(p.values()) for part in (lesson.validation, lesson.held_out) for p in part.parameters}
+    fresh = [build for build in builds if build.shape is not None and tuple(build.parameters.values()) not in seen]
+    if not fresh:
+        return lesson
+    training = join([lesson.training, _draw(procedure, fresh, lesson.predictor.cameras, settings)])
+    parts = [training, lesson.validation, lesson.held_out]
+    return _train(procedure, parts, lesson.facts, settings, settings.warm_epochs, stages, lesson.predictor)
+
+
+def limits_of(settings: Settings) -> Limits:
+    """What building one shape may cost."""
+    return Limits(settings.shape_seconds, settings.shape_memory_mb)
+
+
+def _train(
+    procedure: Procedure,
+    parts: Sequence[Dataset],
+    facts: dict[str, Any],
+    settings: Settings,
+    epochs: int,
+    stages: Stages,
+    previous: Predictor | None,
+) -> Lesson:
+    training, validation, held_out = parts
+    schedule = _schedule(settings, epochs)
+    stages.begin("train", epochs)
+
+    def tell(epoch: Epoch) -> None:
+        stages.step(epoch.epoch, epochs, f"validation loss {epoch.validation:.3f}")
+
+    initial = previous.network if previous else None
+    trained = train_network(procedure.space, training, validation, schedule, tell, settings.workers, initial)
+    held_out = held_out.seen_by(trained.cameras, settings.workers)
+    predictor = Predictor(
+        procedure.space,
+        trained.network,
+        trained.cameras,
+        settings.image_size,
+        measure(trained.network, procedure.space, held_out),
+        trained.curve,
+        sum(map(len, parts)),
+        settings.workers,
+    )
+    cameras = {**facts["cameras"], "after": _places(trained.cameras)}
+    weights = str(schedule.weights) if schedule.weights else None
+    validation, training = (part.seen_by(trained.cameras, settings.workers) for part in (validation, training))
+    return Lesson(predictor, training, validation, held_out, {**facts, "cameras": cameras, "weights": weights})
+
+
+def _draw(procedure: Procedure, builds: Sequence[Build], cameras: Sequence[Camera], settings: Settings) -> Dataset:
+    good, meshes = meshes_of(builds)
+    vectors = [build.parameters for build in good]
+    return make_dataset(procedure.space, vectors, meshes, cameras, settings.image_size, settings.workers)
+
+
+def _schedule(settings: Settings, epochs: int) -> Schedule:
+    return Schedule(
+        epochs=epochs,
+        batch=settings.batch,
+        learning_rate=settings.learning_rate,
+        weight_decay=settings.weight_decay,
+        optimiser=settings.optimiser,
+        camera_rate=settings.camera_rate if settings.cameras == "learned" else 0.0,
+        network=settings.network,
+        weights=find_weights(settings.weights) if settings.network == "vgg19" else None,
+        device=settings.device,
+        seed=settings.seed,
+    )
+
+
+def _places(cameras: Sequence[Camera]) -> list[list[float]]:
+    """Azimuth and elevation in degrees, and distance, of every camera."""
+    return [[camera.azimuth, camera.elevation, camera.distance] for camera in cameras]

@@ -1,0 +1,29 @@
+"""Parameters as plain values, for files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from shapewright.parameters import Binary, Choice, Integer, Parameter, Scalar
+
+_KINDS: Mapping[str, Callable[..., Parameter]] = {
+    "scalar": Scalar,
+    "integer": Integer,
+    "choice": Choice,
+    "binary": Binary,
+}
+_FIELDS = ("name", "low", "high", "steps", "options", "default")
+
+
+def to_record(parameter: Parameter) -> dict[str, Any]:
+    """A parameter without its ``when``: kind and _FIELDS, None where its kind has no such field."""
+    values = {name: getattr(parameter, name, None) for name in _FIELDS}
+    plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
+    return {"kind": type(parameter).__name__.lower(), **plain}
+
+
+def from_record(record: Mapping[str, Any]) -> Parameter:
+    """The inverse of ``to_record``."""
+    given = {name: record[name] for name in _FIELDS if record.get(name) is not None}
+    return _KINDS[record["kind"]](**{k: tuple(v) if isinstance(v, list) else v for k, v in given.items()})
