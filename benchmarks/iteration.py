@@ -2,7 +2,8 @@
 
     python benchmarks/iteration.py examples/tables/v5.py FOLDER... --count 200
 
-References are taken from the folders in turn until there are enough. Descriptors are not cached between runs.
+References are taken from the folders in turn until there are enough. Descriptors are not cached between runs. With
+--previous an earlier version is fitted first, and the iteration that is measured goes on from it.
 """
 
 import argparse
@@ -38,17 +39,27 @@ def main() -> None:
     parser.add_argument("folders", nargs="+")
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--workers", type=int)
+    parser.add_argument("--previous", help="an earlier version of the procedure")
+    parser.add_argument("--rounds", type=int, default=0, help="of adaptive sampling")
     arguments = parser.parse_args()
+    settings = sw.Settings(workers=arguments.workers, rounds=arguments.rounds)
     started = time.perf_counter()
     references = gather(arguments.folders, arguments.count)
-    loaded = time.perf_counter()
-    settings = sw.Settings(workers=arguments.workers)
-    iteration = sw.fit(sw.load_procedure(arguments.procedure), references, settings)
+    loaded = time.perf_counter() - started
+    with tempfile.TemporaryDirectory() as cache:
+        previous = None
+        if arguments.previous:
+            previous = sw.fit(sw.load_procedure(arguments.previous), references, settings, cache=Path(cache))
+            print(f"{len(previous.compatible)} compatible before")
+        started = time.perf_counter()
+        procedure = sw.load_procedure(arguments.procedure)
+        iteration = sw.fit(procedure, references, settings, cache=Path(cache), previous=previous)
     fitted = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
         iteration.save(Path(folder) / "run")
     saved = time.perf_counter()
-    stages = {"load": loaded - started, **iteration.seconds, "save": saved - fitted, "all": saved - started}
+    first = iteration.metrics["first_answer"]
+    stages = {"load": loaded, "(answer)": first, **iteration.seconds, "save": saved - fitted, "all": saved - started}
     for stage, seconds in stages.items():
         print(f"{stage:<10}{seconds:8.2f} s")
     mine, worker = peak_megabytes()

@@ -1,20 +1,35 @@
-"""The command line: new, fit, sample, report, compare, demo."""
+"""The command line: new, fit, evaluate, sample, report, compare, demo."""
 
 from __future__ import annotations
 
+import shutil
 import sys
+import tempfile
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 from rich.console import Console
 from rich.markup import escape
 
+from shapewright.options import (
+    Cameras,
+    Device,
+    Epochs,
+    Json,
+    Preset,
+    ProcedureArgument,
+    Refine,
+    Samples,
+    Seed,
+    Views,
+    Workers,
+)
 from shapewright.procedure import ProcedureError, load_procedure
 from shapewright.references.errors import CollectionError
 from shapewright.settings import Settings
-from shapewright.workspace import RunError, cache_folder, check_writable, next_run, read_record, runs
+from shapewright.workspace import RunError, cache_folder, check_writable, next_run, previous_run, read_record
 
 if TYPE_CHECKING:
     from shapewright.iteration import Iteration
@@ -31,13 +46,6 @@ app = typer.Typer(
 out, err = Console(), Console(stderr=True)
 _HANDLED = (ProcedureError, CollectionError, RunError, ValueError, OSError)
 
-ProcedureArgument = Annotated[
-    Path, typer.Argument(help="The Python file with the @procedure; file.py:name for one of several.")
-]
-Json = Annotated[bool, typer.Option("--json", help="Print one JSON object as the last line of standard output.")]
-Seed = Annotated[int, typer.Option(help="Of everything random: the same seed gives the same result.")]
-Workers = Annotated[int | None, typer.Option(min=1, help="Processes and threads.  [dim]default: all cores[/]")]
-
 
 @app.command()
 def new(name: Annotated[Path, typer.Argument(help="The folder to make.")]) -> None:
@@ -45,7 +53,7 @@ def new(name: Annotated[Path, typer.Argument(help="The folder to make.")]) -> No
     if name.exists():
         raise RunError(f"{name}: exists already; name another folder")
     (name / "references").mkdir(parents=True)
-    (name / "procedure.py").write_text(_STARTER, encoding="utf-8")
+    shutil.copyfile(Path(__file__).with_name("starter.py"), name / "procedure.py")
     out.print(f"made {escape(str(name))}/procedure.py and {escape(str(name))}/references/", highlight=False)
     out.print("\nPut meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF) into references, then:\n")
     out.print(f"  cd {escape(str(name))}\n  shapewright fit procedure.py references", highlight=False)
@@ -59,12 +67,18 @@ def fit(
         Path | None, typer.Option("--out", help="Folder of this run.  [dim]default: the next free runs/NNN[/]")
     ] = None,
     seed: Seed = 0,
-    preset: Annotated[Literal["fast"], typer.Option(help="How to predict: fast is made for laptops.")] = "fast",
-    samples: Annotated[int, typer.Option(min=20, help="Parameter vectors to learn from.")] = Settings.samples,
-    epochs: Annotated[int, typer.Option(min=1, help="Passes over them.")] = Settings.epochs,
-    refine: Annotated[
-        Literal["off", "quick", "thorough"], typer.Option(help="Search for better parameters from the predicted ones.")
-    ] = "quick",
+    preset: Preset = "fast",
+    samples: Samples = None,
+    epochs: Epochs = None,
+    cameras: Cameras = None,
+    views: Views = None,
+    refine: Refine = None,
+    rounds: Annotated[int, typer.Option(min=0, help="Rounds of adaptive sampling around what was found.")] = 0,
+    previous: Annotated[
+        Path | None,
+        typer.Option("--from", help="A run of an earlier version to go on from: quicker, and what was found stays."),
+    ] = None,
+    device: Device = "auto",
     threshold: Annotated[float, typer.Option(help="Largest distance of a compatible reference.")] = Settings.threshold,
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
@@ -83,22 +97,54 @@ def fit(
 
     folder = (out_dir or next_run(Path("runs"))).absolute()
     check_writable(folder)
-    settings = Settings(
+    given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
+    settings = Settings.preset(
+        preset,
+        **given,
         seed=seed,
-        samples=samples,
-        epochs=epochs,
-        refine=refine,
+        rounds=rounds,
+        device=device,
         threshold=threshold,
         align=align,
         shape_seconds=time_limit,
         shape_memory_mb=memory_limit,
         workers=workers,
     )
-    iteration, folder = _fit(load_procedure(procedure), _load(references, up, front), settings, folder)
+    earlier = _load_run(previous) if previous else None
+    iteration, folder = _fit(load_procedure(procedure), _load(references, up, front), settings, folder, earlier)
     if json:
         print_json(iteration_record(iteration, folder))
     else:
         print_iteration(out, iteration, folder)
+
+
+@app.command()
+def evaluate(
+    procedure: ProcedureArgument,
+    seeds: Annotated[int, typer.Option(min=1, help="Trainings, each with another seed.")] = 1,
+    preset: Preset = "fast",
+    samples: Samples = None,
+    epochs: Epochs = None,
+    cameras: Cameras = None,
+    views: Views = None,
+    refine: Refine = None,
+    device: Device = "auto",
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Measure how well the parameters of a procedure are found, on samples that were held out."""
+    from shapewright.console import print_json, print_trials, progress_bars
+    from shapewright.evaluation import evaluate as run_trials
+    from shapewright.evaluation import summary
+
+    given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
+    settings = Settings.preset(preset, **given, device=device, workers=workers)
+    with progress_bars(err) as listen:
+        trials = list(run_trials(load_procedure(procedure), [settings], range(seeds), listen))
+    if json:
+        print_json({"parameters": summary(trials), "seconds": [trial.seconds for trial in trials]})
+    else:
+        print_trials(out, trials)
 
 
 @app.command()
@@ -159,7 +205,7 @@ def report(
     read_record(run)
     if previous:
         read_record(previous)
-    path = write_report(run.absolute(), previous or _before(run.absolute()))
+    path = write_report(run.absolute(), previous or previous_run(run.absolute()))
     if json:
         print_json({"report": str(path)})
     else:
@@ -219,50 +265,46 @@ def _load(references: str, up: str, front: str | None) -> Collection:
     return Collection.load(references, up=up, front=front)
 
 
-def _fit(procedure: Procedure, references: Collection, settings: Settings, folder: Path) -> tuple[Iteration, Path]:
+def _given(**options: Any) -> dict[str, Any]:
+    """The options that were given; the others are as the preset says."""
+    return {name: value for name, value in options.items() if value is not None}
+
+
+def _load_run(folder: Path) -> Iteration:
+    from shapewright.iteration import Iteration
+
+    return Iteration.load(folder)
+
+
+def _fit(
+    procedure: Procedure, references: Collection, settings: Settings, folder: Path, previous: Iteration | None = None
+) -> tuple[Iteration, Path]:
     """Run and save one iteration; returns it and the folder that it is in."""
     from shapewright.authoring import fit as iterate
     from shapewright.console import progress_bars
 
     try:
         with progress_bars(err) as listen:
-            iteration = iterate(procedure, references, settings, listen, cache_folder())
+            iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
     except KeyboardInterrupt:
         err.print("stopped: nothing of this run was written; earlier runs are as they were")
         raise typer.Exit(130) from None
-    previous = _before(folder, set(iteration.names))
+    before = previous_run(folder, set(iteration.names))
     try:
-        return iteration, iteration.save(folder, previous)
+        return iteration, iteration.save(folder, before)
     except RunError as error:
-        refuge = next_run(Path(_temporary()) / "shapewright-runs")
+        refuge = next_run(Path(tempfile.gettempdir()) / "shapewright-runs")
         err.print(f"[red]{escape(str(error))}[/]\nsaving to {escape(str(refuge))} instead", highlight=False)
         iteration.save(refuge)
         raise RunError(f"{error}\nThe run is whole in {refuge}; free some space and move it") from error
-
-
-def _before(folder: Path, names: set[str] | None = None) -> Path | None:
-    """The newest run beside ``folder`` that is older than it, and shares references with it."""
-    beside = [run for run in runs(folder.parent) if run != folder]
-    if (folder / "iteration.json").exists():
-        written = (folder / "iteration.json").stat().st_mtime_ns
-        beside = [run for run in beside if (run / "iteration.json").stat().st_mtime_ns < written]
-    for run in reversed(beside):
-        theirs = {entry["name"] for entry in read_record(run)["references"]}
-        if names is None or names & theirs:
-            return run
-    return None
-
-
-def _temporary() -> str:
-    import tempfile
-
-    return tempfile.gettempdir()
 
 
 def main() -> None:
     """Run a command; a failure prints one message that says what to do, and the exit status is not 0."""
     try:
         app()
+    except KeyboardInterrupt:
+        sys.exit(130)
     except _HANDLED as error:
         _fail(str(error), "--json" in sys.argv)
 
@@ -275,31 +317,6 @@ def _fail(message: str, json: bool) -> None:
         print_json({"error": message})
     sys.exit(1)
 
-
-_STARTER = '''"""A first procedure: every parameter of the function is a parameter of the model."""
-
-from typing import Annotated, Literal
-
-from shapewright import Range, procedure
-from shapewright.modelling.solids import box, cylinder
-
-
-@procedure
-def table(
-    height: Annotated[float, Range(0.4, 1.1)] = 0.7,
-    breadth: Annotated[float, Range(0.3, 1.0)] = 0.6,
-    thickness: Annotated[float, Range(0.02, 0.15)] = 0.05,
-    leg: Annotated[float, Range(0.03, 0.15)] = 0.06,
-    top: Literal["square", "round"] = "square",
-):
-    # Y is up, the front faces +Z; any unit will do, because shapes are compared at the same size.
-    make = cylinder if top == "round" else box
-    plate = make((1.0, thickness, breadth), at=(0, height - thickness / 2, 0)).label("top")
-    reach = 0.7 if top == "round" else 1.0
-    x, z = (reach - leg) / 2, (breadth * reach - leg) / 2
-    post = box((leg, height, leg), at=(x, height / 2, z)).label("legs")
-    return plate | post.mirror("x", keep=True).mirror("z", keep=True)
-'''
 
 if __name__ == "__main__":
     main()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColum
 from rich.table import Table
 from rich.text import Text
 
+from shapewright.evaluation import Trial, summary
 from shapewright.iteration import Iteration
 from shapewright.progress import Listener
 from shapewright.progress import Progress as Event
@@ -126,6 +127,25 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
             for entry in record["references"]
         },
     }
+
+
+def print_trials(console: Console, trials: Sequence[Trial]) -> None:
+    """Errors by parameter, of the network alone and after refinement; with several seeds their range as well."""
+    first = trials[0].metrics
+    table = Table(
+        "parameter", "kind", "measure", "network", "refined", "within 50 %, 90 %", box=None, header_style="dim"
+    )
+    for name, found in summary(trials).items():
+        measure = "MAE" if first[name]["kind"] == "scalar" else "F1"
+        cells = [_range(*found[label]) if label in found else "" for label in ("network", "refined")]
+        shares = [f"{first[name][key]:.2f}" for key in ("within50", "within90") if key in first[name]]
+        table.add_row(escape(name), first[name]["kind"], measure, *cells, ", ".join(shares))
+    console.print(table)
+    console.print(f"[dim]{sum(trial.seconds for trial in trials) / len(trials):.0f} s to train[/]", highlight=False)
+
+
+def _range(mean: float, low: float, high: float) -> str:
+    return f"{mean:.4f}" if low == high else f"{mean:.4f} ({low:.4f} to {high:.4f})"
 
 
 def print_comparison(console: Console, before: Path, after: Path, comparison: Comparison) -> None:

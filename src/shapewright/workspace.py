@@ -76,6 +76,19 @@ def next_run(root: Path) -> Path:
     return root / f"{max(taken, default=0) + 1:03d}"
 
 
+def previous_run(folder: Path, names: set[str] | None = None) -> Path | None:
+    """The newest run beside ``folder`` that is older than it and shares one of the names; None where there is none."""
+    beside = [run for run in runs(folder.parent) if run != folder]
+    if (folder / RECORD).exists():
+        written = (folder / RECORD).stat().st_mtime_ns
+        beside = [run for run in beside if (run / RECORD).stat().st_mtime_ns < written]
+    for run in reversed(beside):
+        theirs = {entry["name"] for entry in read_record(run)["references"]}
+        if names is None or names & theirs:
+            return run
+    return None
+
+
 def read_record(folder: Path) -> dict[str, Any]:
     """The record of a run's folder. Raises RunError when there is none, or one of an unknown format."""
     path = folder / RECORD

@@ -3,36 +3,34 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.comparison.coefficients import coefficients, quantise
 from shapewright.comparison.descriptor import Descriptor
-from shapewright.comparison.dodecahedra import directions
+from shapewright.comparison.dodecahedra import VIEWS, directions
 from shapewright.comparison.least_cost import weighted
-from shapewright.rendering.silhouettes_raster import silhouettes
+from shapewright.rendering.silhouettes_raster import SIZE, draw, view_axes
 from shapewright.shapes import Mesh
 
-FIELDS = (0,)
-"""Light fields that are compared: each sees a shape from ten directions."""
+FIELD = 0
+"""The light field that is compared: it sees a shape from ten directions."""
+_AXES = view_axes(directions()[FIELD])
 
 
 class AlignedCost:
-    """The raw distance between one reference and its replicas, over FIELDS, without trying rotations.
+    """The raw distance between one reference and its replicas, in one light field, without trying rotations.
 
-    With one light field it is an upper bound of the light field distance, at a tenth of a descriptor's time.
+    It is an upper bound of the light field distance, at a tenth of a descriptor's time.
     """
 
     def __init__(self, reference: Descriptor) -> None:
-        self._target = weighted(reference.coefficients[list(FIELDS)], reference.bits).astype(np.int64)
+        self._target = weighted(reference.coefficients[FIELD], reference.bits).astype(np.int64)
 
     def __call__(self, replica: Mesh) -> float:
         """The cost of a replica, infinite for one that no view shows."""
-        mesh = replica.normalised()
-        seen: list[NDArray[np.uint8]] = []
-        for field in FIELDS:
-            values = coefficients(silhouettes(mesh, directions()[field]))
-            if not values.any():
-                return np.inf
-            seen.append(quantise(values))
-        ours = weighted(np.stack(seen), 4).astype(np.int64)
-        return float(np.abs(ours - self._target).sum() / len(FIELDS))
+        vertices = replica.normalisation().apply(replica.vertices)
+        images = np.empty((VIEWS, SIZE, SIZE), dtype=np.uint8)
+        draw(vertices, replica.faces, _AXES, images)
+        values = coefficients(images)
+        if not values.any():
+            return np.inf
+        return float(np.abs(weighted(quantise(values), 4) - self._target).sum())

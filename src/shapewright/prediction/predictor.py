@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 from pathlib import Path
@@ -49,7 +50,10 @@ class Predictor:
             "samples": self.samples,
             "metrics": self.metrics,
         }
-        torch.save(record, path)
+        # torch reports a full disk as a RuntimeError of its archive; bytes of our own raise OSError.
+        buffer = io.BytesIO()
+        torch.save(record, buffer)
+        path.write_bytes(buffer.getvalue())
 
     @classmethod
     def load(cls, path: Path) -> Predictor:

@@ -1,0 +1,83 @@
+"""How well the parameters of a procedure can be found: the paper's table (section 5.1) for any procedure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shapewright.building import Workers
+from shapewright.judge import Judge
+from shapewright.learning import Lesson, learn, limits_of
+from shapewright.prediction.evaluation import Metrics, score
+from shapewright.prediction.refinement import QUICK, THOROUGH, refine
+from shapewright.procedure import Procedure
+from shapewright.progress import Listener, Stages
+from shapewright.references import Collection
+from shapewright.settings import Settings
+
+REFINED = 100
+"""Held-out samples that refinement is measured on, at most."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One training and what it gave on held-out samples, none of which it has seen.
+
+    metrics: of the network alone. refined: of the same rows after refinement, None where that is off.
+    """
+
+    settings: Settings
+    metrics: Metrics
+    refined: Metrics | None
+    seconds: float
+
+
+def evaluate(
+    procedure: Procedure,
+    settings: Sequence[Settings],
+    seeds: Sequence[int] = (0,),
+    progress: Listener | None = None,
+) -> Iterator[Trial]:
+    """A trial for each of the settings with each seed, as they end. Raises ProcedureError as ``fit`` does."""
+    for setting in settings:
+        for seed in seeds:
+            chosen = replace(setting, seed=seed)
+            stages = Stages(progress)
+            with Workers(procedure, chosen.workers, limits_of(chosen)) as crew:
+                lesson = learn(procedure, crew, chosen, stages)
+                stages.end()
+                seconds = sum(stages.seconds.values())
+                refined = None if chosen.refine == "off" else _refined(procedure, crew, lesson, chosen, stages)
+            stages.end()
+            yield Trial(chosen, lesson.predictor.metrics, refined, seconds)
+
+
+def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, float]]]:
+    """Per parameter and measure (mae, or f1; and refined) the mean over the trials, the least and the most."""
+    table: dict[str, dict[str, tuple[float, float, float]]] = {}
+    for label, chosen in (("network", [t.metrics for t in trials]), ("refined", [t.refined for t in trials])):
+        for name in trials[0].metrics:
+            found = [m[name].get("mae", m[name].get("f1")) for m in chosen if m is not None and name in m]
+            values = [value for value in found if value is not None]
+            if values:
+                table.setdefault(name, {})[label] = (float(np.mean(values)), min(values), max(values))
+    return table
+
+
+def _refined(procedure: Procedure, crew: Workers, lesson: Lesson, settings: Settings, stages: Stages) -> Metrics:
+    """The metrics after refinement, on the first REFINED held-out rows."""
+    held_out = lesson.held_out.take(np.arange(min(REFINED, len(lesson.held_out))))
+    shapes = Collection.of({f"{i:03d}": mesh for i, mesh in enumerate(held_out.meshes)})
+    judge = Judge.of(shapes, settings)
+    inferred = lesson.predictor.infer(held_out.meshes)
+    budget = QUICK if settings.refine == "quick" else THOROUGH
+    stages.begin("refine", len(budget.rungs))
+    found = refine(procedure.space, inferred, crew, judge.search_costs, budget, settings.seed, progress=stages.step)
+    encoded = np.array([procedure.space.encode(values) for values in found], dtype=np.float32)
+    answers = [
+        np.eye(parameter.classes, dtype=np.float32)[encoded[:, i].astype(int)] if parameter.classes else encoded[:, i]
+        for i, parameter in enumerate(procedure.space)
+    ]
+    return score(procedure.space, answers, held_out.targets, held_out.active)
