@@ -8,10 +8,16 @@ import sys
 import tempfile
 from pathlib import Path
 
-FLAGS = (
-    "--headless --disable-gpu --hide-scrollbars --no-first-run --disable-background-networking --disable-sync "
-    "--disable-component-update --virtual-time-budget=3000"
-).split()
+FLAGS = [
+    "--headless",
+    "--disable-gpu",
+    "--hide-scrollbars",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-sync",
+    "--disable-component-update",
+    "--virtual-time-budget=3000",
+]
 
 
 def main() -> None:

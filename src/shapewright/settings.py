@@ -38,7 +38,7 @@ class Settings:
     network: Literal["compact", "vgg19"] = "compact"
     weights: str | None = None
     device: Literal["auto", "cpu", "cuda", "mps"] = "auto"
-    epochs: int = 20
+    epochs: int = 15
     batch: int = 64
     learning_rate: float = 2e-3
     weight_decay: float = 1e-2
@@ -47,7 +47,7 @@ class Settings:
     views: int = 3
     camera_distance: float = 2.6
     cameras: Literal["fixed", "learned"] = "fixed"
-    camera_rate: float = 0.01
+    camera_rate: float = 0.03
     warm_epochs: int = 6
     rounds: int = 0
     round_samples: int = 1000
