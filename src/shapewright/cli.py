@@ -29,7 +29,7 @@ from shapewright.options import (
 from shapewright.procedure import ProcedureError, load_procedure
 from shapewright.references.errors import CollectionError
 from shapewright.settings import Settings
-from shapewright.workspace import RunError, cache_folder, check_writable, next_run, previous_run, read_record
+from shapewright.workspace import RunError, cache_folder, check_free, check_writable, next_run, previous_run, read_record
 
 if TYPE_CHECKING:
     from shapewright.iteration import Iteration
@@ -96,7 +96,7 @@ def fit(
     from shapewright.console import iteration_record, print_iteration, print_json
 
     folder = (out_dir or next_run(Path("runs"))).absolute()
-    check_writable(folder)
+    check_free(folder)
     given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
     settings = Settings.preset(
         preset,
@@ -111,7 +111,9 @@ def fit(
         workers=workers,
     )
     earlier = _load_run(previous) if previous else None
-    iteration, folder = _fit(load_procedure(procedure), _load(references, up, front), settings, folder, earlier)
+    author, loaded = load_procedure(procedure), _load(references, up, front)
+    check_writable(folder)
+    iteration, folder = _fit(author, loaded, settings, folder, earlier)
     if json:
         print_json(iteration_record(iteration, folder))
     else:
