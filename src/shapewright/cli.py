@@ -29,7 +29,15 @@ from shapewright.options import (
 from shapewright.procedure import ProcedureError, load_procedure
 from shapewright.references.errors import CollectionError
 from shapewright.settings import Settings
-from shapewright.workspace import RunError, cache_folder, check_free, check_writable, next_run, previous_run, read_record
+from shapewright.workspace import (
+    RunError,
+    cache_folder,
+    check_free,
+    check_writable,
+    next_run,
+    previous_run,
+    read_record,
+)
 
 if TYPE_CHECKING:
     from shapewright.iteration import Iteration
