@@ -29,8 +29,8 @@ def test_each_fills_its_size_around_at_and_is_sound(name):
 def test_rounding_and_chamfering():
     assert rounded_box(1, 0.5, segments=32).volume == pytest.approx(math.pi / 6, rel=0.01)
     assert rounded_box((3, 1, 1), 0.1, segments=1).volume == pytest.approx(chamfered_box((3, 1, 1), 0.1).volume)
-    corner = 0.1**3 * (4 / 3 * 2)  # of the eight, what the three cuts do not count twice
-    assert chamfered_box(1, 0.1).volume == pytest.approx(1 - 12 * 0.1**2 / 2 + corner, rel=2e-3)
+    core, sides, edges, corners = 0.8**3, 6 * 0.8**2 * 0.1, 12 * 0.8 * 0.1**2 / 2, 8 * 0.1**3 / 6
+    assert chamfered_box(1, 0.1).volume == pytest.approx(core + sides + edges + corners)
     assert len(chamfered_box(1, 0.1).mesh().faces) == 44
 
 

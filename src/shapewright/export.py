@@ -36,7 +36,8 @@ def encode(shape: Shape, format: Format = "glb", extras: Extras | None = None) -
 
 
 def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
-    """Binary glTF 2.0: one node per label, with vertices of its own, under a root node that holds the extras."""
+    """Binary glTF 2.0: one node per label, with vertices of its own, under a root node that holds the extras,
+    as the scene does."""
     buffer = bytearray()
     accessors: list[dict[str, Any]] = []
     views: list[dict[str, Any]] = []
@@ -45,7 +46,7 @@ def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
     for name, faces in _parts(mesh):
         used, corners = np.unique(faces, return_inverse=True)
         positions = mesh.vertices[used].astype(np.float32)
-        arrays = (positions, corners.astype(np.uint16 if len(used) <= 0xFFFF else np.uint32))
+        arrays = (positions, corners.ravel().astype(np.uint16 if len(used) <= 0xFFFF else np.uint32))
         meshes.append({"name": name, "primitives": [_primitive(len(accessors))]})
         nodes.append({"name": name, "mesh": len(meshes) - 1})
         for array, target in zip(arrays, (34962, 34963), strict=True):
@@ -54,12 +55,12 @@ def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
             accessors.append(_accessor(len(views) - 1, array))
             buffer += data + bytes(-len(data) % 4)
     nodes[0]["children"] = list(range(1, len(nodes)))
-    if extras:
-        nodes[0]["extras"] = dict(extras)
+    known = {"extras": dict(extras)} if extras else {}
+    nodes[0] |= known
     document = {
         "asset": {"version": "2.0", "generator": "shapewright"},
         "scene": 0,
-        "scenes": [{"nodes": [0]}],
+        "scenes": [{"nodes": [0], **known}],  # some readers keep the scene's extras, some the nodes'
         "nodes": nodes,
         "meshes": meshes,
         "accessors": accessors,

@@ -8,8 +8,8 @@ import numpy as np
 from numba import njit
 
 from shapewright.shapes import Floats, Ints
+from shapewright.slivers import SLIVER as LENGTH
 
-LENGTH = 1e-6
 _PLANE, _ROUNDING = 1e-8, 1e-15
 _LEAF, _DEPTH = 4, 64
 
@@ -17,23 +17,15 @@ _LEAF, _DEPTH = 4, 64
 def crossing_pairs(triangles: Floats) -> Ints:
     """(P, 2): indices of triangles that cross or overlap, the lower first, in order.
 
-    triangles: (F, 3, 3), the largest extent of them all about 1. Two triangles cross when they share more than a
-    segment that is an edge of both, or than a point: meeting at shared corners and along shared or touching edges is
-    no crossing, lying on one another in a plane is. What is shared must be longer (in a plane: wider) than LENGTH.
+    triangles: (F, 3, 3), the largest extent of them all about 1. Two triangles cross when they share a segment that
+    lies inside at least one of them, or a part of their plane: meeting in points and along edges of both is no
+    crossing, though an edge on the inside of a face is. What is shared must be longer (in a plane: wider) than LENGTH.
     Triangles that are less high than LENGTH have no plane and are left out.
     """
     if not len(triangles):
         return np.zeros((0, 2), dtype=np.int64)
     pairs = np.asarray(_pairs(np.ascontiguousarray(triangles, dtype=np.float64)))
     return pairs[np.lexsort(pairs.T[::-1])]
-
-
-def heights(triangles: Floats) -> Floats:
-    """(F,): the least height of each triangle of (F, 3, 3)."""
-    edges = np.roll(triangles, -1, axis=1) - triangles
-    longest = np.sqrt(np.einsum("fed,fed->fe", edges, edges).max(axis=1, initial=0.0))
-    doubled = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
-    return np.asarray(np.divide(doubled, longest, out=np.zeros(len(triangles)), where=longest > 0.0))
 
 
 @njit(nogil=True, cache=True)
@@ -92,14 +84,14 @@ def _bounds(T: Any) -> Any:
     low, high = np.empty((len(T), 3)), np.empty((len(T), 3))
     for i in range(len(T)):
         for d in range(3):
-            low[i, d] = min(T[i, 0, d], T[i, 1, d], T[i, 2, d])
-            high[i, d] = max(T[i, 0, d], T[i, 1, d], T[i, 2, d])
+            low[i, d] = min(T[i, 0, d], T[i, 1, d], T[i, 2, d]) - _PLANE
+            high[i, d] = max(T[i, 0, d], T[i, 1, d], T[i, 2, d]) + _PLANE
     return low, high
 
 
 @njit(nogil=True, cache=True)
 def _meet(low: Any, high: Any, i: int, other_low: Any, other_high: Any, j: int) -> bool:
-    return (
+    return bool(
         low[i, 0] <= other_high[j, 0]
         and other_low[j, 0] <= high[i, 0]
         and low[i, 1] <= other_high[j, 1]

@@ -8,12 +8,9 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from shapewright.intersections import LENGTH, crossing_pairs, heights
+from shapewright.intersections import crossing_pairs
 from shapewright.shapes import Ints, Mesh
-
-SLIVER = LENGTH
-"""Height, as a part of the mesh's largest extent, below which a triangle is a sliver: in a file of single precision
-its corners are no longer told from a line."""
+from shapewright.slivers import SLIVER, heights
 
 
 @dataclass(frozen=True)
@@ -53,15 +50,16 @@ def soundness(mesh: Mesh) -> Soundness:
     """Examine a mesh of any kind. Lengths below a millionth of its largest extent count as nothing.
 
     Faces are neighbours through the vertices that they share; in a mesh that is open so, vertices at the same place
-    are taken for one. Faces that touch at points and edges only do not intersect; faces that lie on one another do.
+    are taken for one. Faces that meet in points and along their edges do not intersect; faces that lie on one another,
+    and a face with another's edge on its inside, do.
     """
     if not len(mesh.faces):
         return Soundness(False, True, True, 0, 0, 0, 0)
     faces = mesh.faces
-    closed, manifold, oriented, components = _topology(faces, len(mesh.vertices))
+    closed, manifold, oriented, components = topology(faces, len(mesh.vertices))
     if not closed:
         faces = _welded(mesh)
-        closed, manifold, oriented, components = _topology(faces, len(mesh.vertices))
+        closed, manifold, oriented, components = topology(faces, len(mesh.vertices))
     extent = float(mesh.extent.max())
     triangles = (mesh.triangles - mesh.bounds.mean(axis=0)) / (extent or 1.0)
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
@@ -87,8 +85,8 @@ def _welded(mesh: Mesh) -> Ints:
 
 
 @njit(nogil=True, cache=True)
-def _topology(faces: Any, vertex_count: int) -> Any:
-    """Closed, manifold, wound alike, number of components."""
+def topology(faces: Any, vertex_count: int) -> Any:
+    """Whether faces (F, 3) are closed, manifold and wound alike, and how many components they are."""
     keys, starts = np.empty(3 * len(faces), dtype=np.int64), np.empty(3 * len(faces), dtype=np.int64)
     for f in range(len(faces)):
         for k in range(3):

@@ -1,0 +1,122 @@
+"""Solids made ready for a boolean: what all but coincides is made to coincide, or to overlap.
+
+Two parts that an author means to touch differ by rounding: 0.7 - 0.05 / 2 - 0.05 / 2 is not 0.65. Booleans take them at
+their word, and leave a gap without width or a fold without thickness. So coordinates nearer to each other than rounding
+brings about are made equal first: planes along the axes then coincide exactly. Slanted planes cannot; one of two that
+meet is moved into the other by next to nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import accumulate, combinations, pairwise
+
+import numpy as np
+from manifold3d import Manifold, Mesh64
+
+from shapewright.shapes import Floats, Ints
+
+CLOSE, _OVERLAP = 1e-9, 1e-8
+"""How near two coordinates are that are made one, and how much slanted planes are made to overlap: parts of the largest
+extent."""
+_GRID = 1e7
+_KEYS = np.array(
+    [0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0xD6E8FEB86659FD93], dtype=np.uint64
+).astype(np.int64)
+
+
+def aligned(manifolds: Sequence[Manifold], facing: int = -1) -> list[Manifold]:
+    """The same solids, moved by less than about 1e-8 of their extent; those that are exact already as they are.
+
+    facing: -1 where planes that face each other are to overlap, as in a union; 1 where those that face the same way
+    are, as when the others are cut out of the first.
+    """
+    result = list(manifolds)
+    boxes = [manifold.bounding_box() for manifold in manifolds]
+    extent = max(max(box[d + 3] for box in boxes) - min(box[d] for box in boxes) for d in range(3))
+    touching = _touching(boxes, CLOSE * extent)
+    if not touching:
+        return result
+    meshes = [manifolds[i].to_mesh64() for i in touching]
+    ends = [0, *accumulate(len(mesh.vert_properties) for mesh in meshes)]
+    points = np.concatenate([mesh.vert_properties for mesh in meshes])[:, :3]
+    moved = _overlapping(_merged(points, CLOSE * extent), meshes, ends, facing, extent)
+    if moved is points:
+        return result
+    for i, mesh, (start, end) in zip(touching, meshes, pairwise(ends), strict=True):
+        if (moved[start:end] != points[start:end]).any():
+            result[i] = with_points(mesh, moved[start:end])
+    return result
+
+
+def _touching(boxes: Sequence[Sequence[float]], least: float) -> list[int]:
+    """Indices of bounding boxes (x, y, z, x, y, z) that are nearer than ``least`` to another one."""
+    found: set[int] = set()
+    for (i, a), (j, b) in combinations(enumerate(boxes), 2):
+        if all(a[d] <= b[d + 3] + least and b[d] <= a[d + 3] + least for d in range(3)):
+            found |= {i, j}
+    return sorted(found)
+
+
+def _merged(points: Floats, least: float) -> Floats:
+    """The points, each coordinate that is less than ``least`` above another replaced by that one."""
+    gaps = np.diff(np.sort(points, axis=0), axis=0)
+    if not ((gaps > 0.0) & (gaps <= least)).any():
+        return points
+    merged = np.empty_like(points)
+    for d in range(3):
+        order = np.argsort(points[:, d], kind="stable")
+        ordered = points[order, d]
+        first = np.concatenate([[True], gaps[:, d] > least])
+        merged[order, d] = ordered[first][np.cumsum(first) - 1]
+    return merged
+
+
+def _overlapping(points: Floats, meshes: Sequence[Mesh64], ends: Sequence[int], facing: int, extent: float) -> Floats:
+    """The points, with slanted planes of later meshes that meet a plane of an earlier one pushed out a little."""
+    faces = np.concatenate([mesh.tri_verts.astype(np.int64) + start for mesh, start in zip(meshes, ends, strict=False)])
+    corners = points[faces]
+    slanted = np.nonzero(~(corners == corners[:, :1]).all(axis=1).any(axis=1))[0]
+    owners = np.searchsorted(ends, faces[slanted, 0], side="right")
+    if not len(slanted) or owners[0] == owners[-1]:
+        return points
+    a, b, c = corners[slanted].transpose(1, 2, 0)
+    u, v = b - a, c - a
+    normals = np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+    normals /= np.maximum(np.sqrt((normals * normals).sum(axis=0)), np.finfo(np.float64).tiny)
+    planes = np.concatenate([normals, (normals * a).sum(axis=0)[None] / extent])
+    keys = _KEYS @ np.round(planes * _GRID).astype(np.int64)  # linear: the key of the other side is the negative
+    moved = points
+    for owner in np.unique(owners)[1:]:
+        mine = owners == owner
+        for key in np.unique(keys[mine & np.isin(facing * keys, keys[owners < owner])]):
+            side = mine & (keys == key)
+            moved = moved.copy() if moved is points else moved
+            moved[np.unique(faces[slanted[side]])] += _OVERLAP * extent * normals[:, side.argmax()]
+    return moved
+
+
+def manifold_of(points: Floats, faces: Ints, owners: Ints, originals: Sequence[int]) -> Manifold:
+    """A manifold whose face i (of F, 3) comes from the original ``originals[owners[i]]`` of manifold3d."""
+    order = np.argsort(owners, kind="stable")
+    ends = np.searchsorted(owners[order], np.arange(len(originals) + 1))
+    return Manifold(
+        Mesh64(
+            np.array(points),  # a copy: manifold3d's own arrays are read-only, and it takes none such
+            np.ascontiguousarray(faces[order], dtype=np.uint64),
+            run_index=(3 * ends).astype(np.uint64),
+            run_original_id=np.asarray(originals, dtype=np.uint32),
+        )
+    )
+
+
+def with_points(mesh: Mesh64, points: Floats) -> Manifold:
+    """The manifold of a mesh with other coordinates."""
+    return Manifold(
+        Mesh64(
+            np.ascontiguousarray(points),
+            np.array(mesh.tri_verts),
+            run_index=np.array(mesh.run_index, dtype=np.uint64),
+            run_original_id=np.array(mesh.run_original_id, dtype=np.uint32),
+        )
+    )

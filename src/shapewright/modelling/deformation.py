@@ -1,0 +1,280 @@
+"""Deformations of space: bend, taper, twist, bulge and the like, as functions of points that say where they curve.
+
+Each acts within a domain, the box that is deformed, and runs along one of its axes from the end at which t = 0 to the
+end at t = 1; beyond the ends it goes on as it was there. Deformations are values: equal arguments give equal ones.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from shapewright.modelling import arguments
+from shapewright.modelling.arguments import Point, Vector
+from shapewright.modelling.curves import bernstein
+from shapewright.shapes import Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Domain:
+    """A box in space; ``facing`` has -1 for each axis along which it faces (names its ends) against the axis."""
+
+    low: Point
+    high: Point
+    facing: tuple[int, int, int] = (1, 1, 1)
+
+    @property
+    def centre(self) -> Point:
+        (ax, ay, az), (bx, by, bz) = self.low, self.high
+        return (ax + bx) / 2.0, (ay + by) / 2.0, (az + bz) / 2.0
+
+    def along(self, function: str, axis: str) -> Along:
+        index, sign = self.towards(function, axis)
+        near, far = (self.low, self.high) if sign > 0 else (self.high, self.low)
+        return Along(index, near[index], far[index] - near[index], self.centre)
+
+    def towards(self, function: str, axis: str, name: str = "axis") -> tuple[int, int]:
+        """The index of an axis of space, and the sign of a direction of this box along it."""
+        index, sign = arguments.direction(function, axis, name)
+        return index, sign * self.facing[index]
+
+
+@dataclass(frozen=True, slots=True)
+class Along:
+    """An axis of a domain: t is 0 at ``start`` and 1 at ``start + length``, which may lie below it."""
+
+    axis: int
+    start: float
+    length: float
+    centre: Point
+
+    def t(self, points: Floats) -> Floats:
+        return np.asarray(np.clip((points[:, self.axis] - self.start) / self.length, 0.0, 1.0))
+
+    @property
+    def across(self) -> tuple[int, int]:
+        return (1, 2) if self.axis == 0 else (0, 2) if self.axis == 1 else (0, 1)
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """Sections across an axis, scaled about its middle by a Bezier curve of factors (taper, profile)."""
+
+    along: Along
+    factors: tuple[tuple[float, float], ...]
+
+    def __call__(self, points: Floats) -> Floats:
+        scale = bernstein(self.factors, self.along.t(points))
+        moved = points.copy()
+        for i, d in enumerate(self.along.across):
+            moved[:, d] = self.along.centre[d] + (points[:, d] - self.along.centre[d]) * scale[:, i]
+        return moved
+
+
+@dataclass(frozen=True, slots=True)
+class Shift:
+    """Sections across an axis, moved by a Bezier curve of offsets (path)."""
+
+    along: Along
+    offsets: tuple[Point, ...]
+
+    def __call__(self, points: Floats) -> Floats:
+        return np.asarray(points + bernstein(self.offsets, self.along.t(points)))
+
+
+@dataclass(frozen=True, slots=True)
+class Twist:
+    """Sections across an axis, turned about its middle; ``degrees`` at the far end."""
+
+    along: Along
+    degrees: float
+
+    def __call__(self, points: Floats) -> Floats:
+        angle = math.radians(self.degrees) * self.along.t(points)
+        u, v = ((1, 2), (2, 0), (0, 1))[self.along.axis]
+        x, y = points[:, u] - self.along.centre[u], points[:, v] - self.along.centre[v]
+        moved = points.copy()
+        moved[:, u] = self.along.centre[u] + np.cos(angle) * x - np.sin(angle) * y
+        moved[:, v] = self.along.centre[v] + np.sin(angle) * x + np.cos(angle) * y
+        return moved
+
+
+@dataclass(frozen=True, slots=True)
+class Bend:
+    """The middle of the box bent to an arc of its own length, straight beyond the ends.
+
+    towards: the axis that it bends to; sign: 1 to its high end. fixed: the t of the section that stays where it is.
+    """
+
+    along: Along
+    degrees: float
+    towards: int
+    sign: int
+    fixed: float
+
+    def __call__(self, points: Floats) -> Floats:
+        along, b = self.along, self.towards
+        turn = math.radians(self.degrees)
+        radius = abs(along.length) / turn
+        t = (points[:, along.axis] - along.start) / along.length
+        held = np.clip(t, 0.0, 1.0)
+        angle = turn * (held - self.fixed)
+        beyond = (t - held) * abs(along.length)
+        aside = radius - self.sign * (points[:, b] - along.centre[b])
+        moved = points.copy()
+        forward = aside * np.sin(angle) + beyond * np.cos(angle)
+        moved[:, along.axis] = along.start + along.length * self.fixed + math.copysign(1.0, along.length) * forward
+        moved[:, b] = points[:, b] + self.sign * (aside * (1.0 - np.cos(angle)) + beyond * np.sin(angle))
+        return moved
+
+
+@dataclass(frozen=True, slots=True)
+class Bulge:
+    """A side pushed out in the middle, by ``height`` at most, and everything between it and the other side with it.
+
+    along: from the side that stays to the one that is pushed. low, high: the part of it that moves, across the axis.
+    round: the part is the ellipse in that rectangle, not the rectangle.
+    """
+
+    along: Along
+    height: float
+    low: tuple[float, float]
+    high: tuple[float, float]
+    round: bool
+
+    def __call__(self, points: Floats) -> Floats:
+        weights = []
+        for i, d in enumerate(self.along.across):
+            middle, half = (self.low[i] + self.high[i]) / 2.0, (self.high[i] - self.low[i]) / 2.0
+            weights.append(np.minimum(((points[:, d] - middle) / half) ** 2, 1.0))
+        rise = np.maximum(1.0 - weights[0] - weights[1], 0.0) if self.round else (1.0 - weights[0]) * (1.0 - weights[1])
+        moved = points.copy()
+        moved[:, self.along.axis] += math.copysign(1.0, self.along.length) * self.height * rise * self.along.t(points)
+        return moved
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """A rotation about a point: straight lines stay straight."""
+
+    matrix: tuple[Point, Point, Point]
+    about: Point
+
+    def __call__(self, points: Floats) -> Floats:
+        return np.asarray((points - self.about) @ np.array(self.matrix).T + self.about)
+
+
+@dataclass(frozen=True, slots=True)
+class Free:
+    """Any function of points, given in coordinates from ``centre`` along axes that face as ``facing`` says."""
+
+    function: Callable[[Floats], Floats]
+    centre: Point
+    facing: tuple[int, int, int]
+
+    def __call__(self, points: Floats) -> Floats:
+        moved = np.asarray(self.function((points - self.centre) * self.facing), dtype=np.float64)
+        if moved.shape != points.shape or not np.isfinite(moved).all():
+            raise ValueError(f"deform: the function must give finite points of the form {points.shape}")
+        return moved * self.facing + self.centre
+
+
+Deformation: TypeAlias = Scale | Shift | Twist | Bend | Bulge | Turn | Free
+
+
+def taper(domain: Domain, scale: float | Sequence[float], axis: str) -> Deformation:
+    """See Box.taper."""
+    return _scale("taper", domain, (1.0, scale), axis)
+
+
+def profile(domain: Domain, scales: Sequence[float | Sequence[float]], axis: str) -> Deformation:
+    """See Box.profile."""
+    if len(scales) < 2:
+        raise ValueError("profile: it takes at least two factors, one for each end")
+    return _scale("profile", domain, scales, axis)
+
+
+def _scale(function: str, domain: Domain, scales: Sequence[float | Sequence[float]], axis: str) -> Deformation:
+    factors = tuple(arguments.pair(function, "scale", scale) for scale in scales)
+    if min(min(factor) for factor in factors) <= 0.0:
+        raise ValueError(f"{function}: its factors {scales!r} must be positive")
+    return Scale(domain.along(function, axis), factors)
+
+
+def path(domain: Domain, offsets: Sequence[Vector], axis: str) -> Deformation:
+    """See Box.path."""
+    if len(offsets) < 2:
+        raise ValueError("path: it takes at least two offsets, one for each end")
+    points = [arguments.vector("path", "offset", offset) for offset in offsets]
+    fx, fy, fz = domain.facing
+    along = domain.along("path", axis)
+    shift = Shift(along, tuple((x * fx, y * fy, z * fz) for x, y, z in points))
+    lengthwise = [offset[along.axis] for offset in shift.offsets]
+    if any(lengthwise):
+        t = np.linspace(0.0, 1.0, 65)
+        advance = along.length * t + bernstein([[offset] for offset in lengthwise], t)[:, 0]
+        if (np.diff(advance) * along.length <= 0.0).any():
+            raise ValueError(f"path: the offsets {list(offsets)!r} fold the box back on itself along {axis}")
+    return shift
+
+
+def twist(domain: Domain, degrees: float, axis: str) -> Deformation:
+    """See Box.twist."""
+    _, sign = domain.towards("twist", axis)
+    handed = domain.facing[0] * domain.facing[1] * domain.facing[2]
+    return Twist(domain.along("twist", axis), arguments.number("twist", "degrees", degrees) * sign * handed)
+
+
+def bend(domain: Domain, degrees: float, axis: str, towards: str, fixed: float) -> Deformation | None:
+    """See Box.bend. None for a bend of 0 degrees."""
+    along = domain.along("bend", axis)
+    index, sign = domain.towards("bend", towards, "towards")
+    turn = arguments.number("bend", "degrees", degrees)
+    if index == along.axis:
+        raise ValueError(f"bend: axis={axis!r} cannot be bent towards={towards!r}; it must be across")
+    if turn < 0.0:
+        turn, sign = -turn, -sign
+    if turn == 0.0:
+        return None
+    radius = abs(along.length) / math.radians(turn)
+    half = (domain.high[index] - domain.low[index]) / 2.0
+    if radius <= half:
+        raise ValueError(
+            f"bend: {degrees:g} degrees over a length of {abs(along.length):.4g} is a radius of {radius:.4g}, "
+            f"less than half the thickness ({half:.4g}): the inside would fold"
+        )
+    return Bend(along, turn, index, sign, arguments.number("bend", "fixed", fixed))
+
+
+def bulge(
+    domain: Domain, height: float, face: str, part: tuple[Point, Point] | None = None, round: bool = False
+) -> Deformation:
+    """See Box.bulge. face: the direction of the side that is pushed out."""
+    along = domain.along("bulge", face)
+    rise = arguments.number("bulge", "height", height)
+    if rise <= -abs(along.length):
+        raise ValueError(f"bulge: height={height!r} pushes the side through the other one")
+    low, high = part or (domain.low, domain.high)
+    u, v = along.across
+    return Bulge(along, rise, (low[u], low[v]), (high[u], high[v]), round)
+
+
+def turn(domain: Domain, degrees: float, axis: str, about: Point) -> Deformation:
+    """See Box.rotate. about: a place in the box, 0 to 1 along each axis."""
+    index, sign = domain.towards("rotate", axis)
+    handed = domain.facing[0] * domain.facing[1] * domain.facing[2]
+    angle = math.radians(arguments.number("rotate", "degrees", degrees)) * sign * handed
+    u, v = (index + 1) % 3, (index + 2) % 3
+    matrix = np.eye(3)
+    matrix[u, u] = matrix[v, v] = math.cos(angle)
+    matrix[v, u], matrix[u, v] = math.sin(angle), -math.sin(angle)
+    place = [
+        low + (high - low) * (share if facing > 0 else 1.0 - share)
+        for low, high, facing, share in zip(domain.low, domain.high, domain.facing, about, strict=True)
+    ]
+    rows = tuple((float(x), float(y), float(z)) for x, y, z in matrix)
+    return Turn((rows[0], rows[1], rows[2]), (place[0], place[1], place[2]))
