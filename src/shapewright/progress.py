@@ -41,14 +41,17 @@ class Stages:
         self._listener = listener
         self._stage = ""
         self._started = self._told = 0.0
+        self._done = self._total = 0
 
     def begin(self, stage: str, total: int) -> None:
         self.end()
         self._stage, self._started, self._told = stage, time.perf_counter(), 0.0
+        self._done, self._total = 0, total
         self.step(0, total)
 
     def step(self, done: int, total: int, remark: str = "") -> None:
         now = time.perf_counter()
+        self._done, self._total = done, total
         if self._listener and (now - self._told >= self.INTERVAL or done >= total):
             self._told = now
             self._listener(Progress(self._stage, done, total, remark))
@@ -62,6 +65,8 @@ class Stages:
 
     def end(self) -> None:
         if self._stage:
+            if self._done < self._total:
+                self.step(self._total, self._total)
             spent = time.perf_counter() - self._started
             self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + spent
             self._stage = ""

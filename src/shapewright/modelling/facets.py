@@ -19,7 +19,8 @@ from shapewright.modelling.deformation import Bend, Bulge, Deformation, Free, Sc
 from shapewright.shapes import Floats, Ints
 from shapewright.slivers import SLIVER
 
-_SAMPLES = 33
+_SAMPLES = 25
+_STEPS = np.linspace(0.0, 1.0, _SAMPLES)
 _SNAP = 0.25
 _NINE = np.array([(0.0, u, v) for u in (0.0, 0.5, 1.0) for v in (0.0, 0.5, 1.0)])
 
@@ -72,11 +73,11 @@ def deformed(surface: Surface, deformations: Sequence[Deformation], tolerance: f
     for axis in sorted({*_curved(deformations), *(axis for axis, _ in creases)}):
         inside = sorted({c for a, c in creases if a == axis})
         ends = [float(low[axis]), *inside, float(high[axis])]
+        lines = _lines(low, high, axis, ends)
+        curves = _moved(lines.reshape(-1, 3), deformations, []).reshape(lines.shape)
         planes = set(inside)
-        for start, end in pairwise(ends):
-            lines = _lines(low, high, axis, start, end)
-            curves = _moved(lines.reshape(-1, 3), deformations, []).reshape(lines.shape)
-            planes.update(start + (end - start) * t for t in knots(curves, tolerance))
+        for curve, (start, end) in zip(curves, pairwise(ends), strict=True):
+            planes.update(start + (end - start) * t for t in knots(curve, tolerance))
         cuts = _snapped(sorted(planes), surface.points[:, axis], inside)
         surface = surface.cut(axis, cuts)
         grid.append((axis, np.array([ends[0], *cuts, ends[-1]])))
@@ -135,12 +136,12 @@ def _breaks(deformation: Deformation) -> tuple[tuple[int, float], ...]:
             return (along.axis, along.start), (along.axis, along.start + along.length)
 
 
-def _lines(low: Floats, high: Floats, axis: int, start: float, end: float) -> Floats:
-    """(S, 9, 3): points along an axis, on three by three lines through a box."""
+def _lines(low: Floats, high: Floats, axis: int, ends: Sequence[float]) -> Floats:
+    """(K, S, 9, 3): points from each of K + 1 places along an axis to the next, on nine lines through a box."""
     order = ([0, 1, 2], [1, 0, 2], [1, 2, 0])[axis]
-    lines = np.empty((_SAMPLES, 9, 3))
+    lines = np.empty((len(ends) - 1, _SAMPLES, 9, 3))
     lines[:] = _NINE[:, order] * (high - low) + low
-    lines[:, :, axis] = (start + (end - start) * np.linspace(0.0, 1.0, _SAMPLES))[:, None]
+    lines[..., axis] = (np.array(ends)[:-1, None] + np.diff(ends)[:, None] * _STEPS)[..., None]
     return lines
 
 

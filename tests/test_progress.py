@@ -1,0 +1,48 @@
+from shapewright.progress import Progress, Stages
+
+
+def test_every_stage_is_told_from_its_start_to_its_end():
+    told = []
+    stages = Stages(told.append)
+    stages.begin("sample", 3)
+    stages.begin("train", 2)
+    for epoch in (1, 2):
+        stages.step(epoch, 2, f"epoch {epoch}")
+    stages.end()
+    assert [(event.stage, event.done, event.total) for event in told if event.done in (0, event.total)] == [
+        ("sample", 0, 3),
+        ("sample", 3, 3),
+        ("train", 0, 2),
+        ("train", 2, 2),
+    ]
+    assert list(stages.seconds) == ["sample", "train"] and str(told[-1]) == "train 2/2 epoch 2"
+
+
+def test_steps_in_quick_succession_are_told_once():
+    told = []
+    stages = Stages(told.append)
+    stages.begin("sample", 1000)
+    for done in range(1, 1000):
+        stages.step(done, 1000)
+    assert len(told) < 10
+
+
+def test_a_stage_that_comes_again_adds_up_and_an_answer_is_never_held_back():
+    told = []
+    stages = Stages(told.append)
+    for _ in range(2):
+        stages.begin("train", 1)
+        stages.answer({"a": {"height": 1.0}}, "predicted")
+    stages.end()
+    assert list(stages.seconds) == ["train"]
+    answers = [event for event in told if event.answer]
+    assert len(answers) == 2 and answers[0] == Progress("train", 1, 1, "predicted", {"a": {"height": 1.0}})
+    assert stages.first_answer is not None and stages.first_answer >= 0.0
+
+
+def test_without_a_listener_seconds_are_kept():
+    stages = Stages(None)
+    stages.begin("sample", 1)
+    stages.answer({}, "nothing")
+    stages.end()
+    assert stages.seconds["sample"] >= 0.0
