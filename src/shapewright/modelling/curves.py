@@ -66,7 +66,8 @@ def bezier(*control: Sequence[float], tolerance: float = TOLERANCE) -> Floats:
     tolerance: how far the chords may be from the curve, as a part of the largest extent of its control points.
     """
     points = _points("bezier", control, 2)
-    return _sampled(lambda t: bernstein(points, t), points, [0.0, 1.0], tolerance)
+    slack = _slack(tolerance, points)
+    return bernstein(points, _times(lambda t: bernstein(points, t)[:, None], np.array([0.0, 1.0]), slack))
 
 
 def spline(*through: Sequence[float], closed: bool = False, tolerance: float = TOLERANCE) -> Floats:
@@ -81,8 +82,7 @@ def spline(*through: Sequence[float], closed: bool = False, tolerance: float = T
     if not lengths.all():
         raise ValueError("spline: two points in succession are equal")
     times = np.concatenate([[0.0], np.cumsum(np.sqrt(lengths))])
-    slopes = _slopes(ring, times, closed)
-    return _sampled(lambda t: _hermite(ring, slopes, times, t * times[-1]), points, times / times[-1], tolerance)
+    return interpolate(ring[:, None], times, _slack(tolerance, points), closed)[:, 0]
 
 
 def smooth(stack: Floats, tolerance: float) -> Floats:
@@ -90,12 +90,19 @@ def smooth(stack: Floats, tolerance: float) -> Floats:
 
     tolerance: how far the chords may be from the curves.
     """
-    flat = stack.reshape(len(stack), -1)
     steps = np.linalg.norm(np.diff(stack, axis=0), axis=2).max(axis=1)
-    times = np.concatenate([[0.0], np.cumsum(np.sqrt(steps))])
-    slopes = _slopes(flat, times, False)
-    every = _times(lambda t: _hermite(flat, slopes, times, t).reshape(len(t), -1, 3), times, tolerance)
-    return _hermite(flat, slopes, times, every).reshape(len(every), -1, 3)
+    return interpolate(stack, np.concatenate([[0.0], np.cumsum(np.sqrt(steps))]), tolerance)
+
+
+def interpolate(points: Floats, times: Floats, tolerance: float, closed: bool = False) -> Floats:
+    """Points (M, L, D) on L smooth curves that pass through points (K, L, D) at times (K,), which rise.
+
+    tolerance: how far the chords may be from the curves. closed: the last points are the first, and it is smooth there.
+    """
+    flat = points.reshape(len(points), -1)
+    slopes = _slopes(flat, times, closed)
+    every = _times(lambda t: _hermite(flat, slopes, times, t).reshape(len(t), *points.shape[1:]), times, tolerance)
+    return _hermite(flat, slopes, times, every).reshape(len(every), *points.shape[1:])
 
 
 def _slopes(points: Floats, times: Floats, closed: bool) -> Floats:
@@ -124,9 +131,8 @@ def _hermite(points: Floats, slopes: Floats, times: Floats, at: Floats) -> Float
     )
 
 
-def _sampled(curve: Callable[[Floats], Floats], control: Floats, breaks: Sequence[float], tolerance: float) -> Floats:
-    slack = positive("curve", "tolerance", tolerance) * float(np.ptp(control, axis=0).max())
-    return curve(_times(lambda t: curve(t)[:, None], np.asarray(breaks), slack))
+def _slack(tolerance: float, control: Floats) -> float:
+    return positive("curve", "tolerance", tolerance) * float(np.ptp(control, axis=0).max())
 
 
 def _times(curves: Callable[[Floats], Floats], breaks: Floats, tolerance: float) -> Floats:

@@ -8,7 +8,7 @@ import numpy as np
 
 from shapewright.modelling import arguments
 from shapewright.modelling.arguments import ORIGIN, Axis, Vector
-from shapewright.modelling.curves import TOLERANCE, spline
+from shapewright.modelling.curves import TOLERANCE, interpolate
 from shapewright.modelling.primitives import box, cone
 from shapewright.modelling.sections import Section, rectangle
 from shapewright.modelling.solid import Solid, union
@@ -81,10 +81,11 @@ def turned_leg(
     width, height, depth = arguments.size("turned_leg", size)
     radius = (width + depth) / 4.0
     points = (points - (0.0, points[0, 1])) * (radius / points[:, 0].max(), height / np.ptp(points[:, 1]))
-    line = spline(*points, tolerance=tolerance) if smooth else points
+    slack = arguments.positive("turned_leg", "tolerance", tolerance) * height
+    line = interpolate(points[:, None], points[:, 1], slack)[:, 0] if smooth else points
     line = line * (radius / line[:, 0].max(), 1.0)
-    if line[:, 0].min() <= 0.0 or (np.diff(line[:, 1]) <= 0.0).any():
-        raise ValueError("turned_leg: the curve through the profile doubles back or reaches the axis; use more points")
+    if line[:, 0].min() <= 0.0:
+        raise ValueError("turned_leg: the profile reaches the axis; use larger radii, or more points")
     half = np.concatenate([[(0.0, 0.0)], line, [(0.0, height)]]) - (0.0, height / 2.0)
     turned = revolve(half, segments=segments).scale((width / (2.0 * radius), 1.0, depth / (2.0 * radius)))
     return turned.translate(arguments.vector("turned_leg", "at", at))
