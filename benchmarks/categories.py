@@ -63,7 +63,8 @@ def row(category: str, path: Path, collections: list[sw.Collection], settings: s
     scores = iteration.metrics["validation"].values()
     mae = np.mean([score["mae"] for score in scores if "mae" in score])
     f1 = min((score["f1"] for score in scores if "f1" in score), default=np.nan)
-    cells = [counted([result for result in iteration if result.name.startswith(kind)]) for kind in ("furniture", "cuboids")]
+    kinds = [[result for result in iteration if result.name.startswith(kind)] for kind in ("furniture", "cuboids")]
+    cells = [counted(results) for results in kinds]
     return (
         f"{category} {path.stem:<{9 - len(category)}}{cells[0]:>20}{cells[1]:>20}"
         f"{mae:>8.4f}{f1:>7.3f}{len(procedure.space):>12}{seconds:>9.0f}"
