@@ -114,8 +114,8 @@ def test_the_likeliest_vectors_come_in_order_and_mean_different_shapes():
 
 
 def test_budgets_are_cut_to_what_there_is_time_for():
-    assert 8 < QUICK.evaluations(0) < QUICK.evaluations(3) and THOROUGH.evaluations(3) > 600
-    assert QUICK.within(25, 3).evaluations(3) == 20 and QUICK.within(1e9, 3) == QUICK
+    assert QUICK.evaluations(0) < QUICK.evaluations(3) and THOROUGH.evaluations(3) > 600
+    assert QUICK.within(25, 3).evaluations(3) == 25 and QUICK.within(1e9, 3) == QUICK
     assert QUICK.within(3, 3).evaluations(3) == 3 and QUICK.within(0, 3).evaluations(3) == 1
 
 
