@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.comparison.grouping import Group
+from shapewright.facing import quarter_turns
 from shapewright.iteration import Iteration, draw_pictures
 from shapewright.judge import Judge
 from shapewright.learning import Lesson, learn, learn_more, limits_of
@@ -65,6 +66,11 @@ def fit(
             stages.answer(answer, "carried over")
         watch = None if previous else partial(_first_answer, references, stages, settings)
         lesson = learn(procedure, crew, settings, stages, previous.predictor if previous else None, watch)
+        turns = [0] * len(references)
+        if settings.facing == "found":
+            stages.begin("face", len(references))
+            turns = quarter_turns(references, lesson.predictor, crew)
+            references = references.turned(turns)
         stages.begin("describe", len(references))
         judge = Judge.of(references, settings, cache)
         found = _Found.none(len(references))
@@ -100,6 +106,7 @@ def fit(
             "samples": predictor.samples,
             **lesson.facts,
             "first_answer": stages.first_answer,
+            "turned": {name: 90 * turn for name, turn in zip(references.names, turns, strict=True) if turn},
             "epochs": len(predictor.curve),
             "curve": [vars(epoch) for epoch in predictor.curve],
             "validation": predictor.metrics,
