@@ -143,6 +143,10 @@ def evaluate(
     cameras: Cameras = None,
     views: Views = None,
     refine: Refine = None,
+    compare: Annotated[
+        Literal["cameras", "views", "both"] | None,
+        typer.Option(help="cameras: fixed against learned; views: 1, 2, 3 and 5 cameras; both: all combinations."),
+    ] = None,
     device: Device = "auto",
     workers: Workers = None,
     json: Json = False,
@@ -150,16 +154,24 @@ def evaluate(
     """Measure how well the parameters of a procedure are found, on samples that were held out."""
     from shapewright.console import print_json, print_trials, progress_bars
     from shapewright.evaluation import evaluate as run_trials
-    from shapewright.evaluation import summary
+    from shapewright.evaluation import summary, variants
 
     given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
     settings = Settings.preset(preset, **given, device=device, workers=workers)
-    with progress_bars(err) as listen:
-        trials = list(run_trials(load_procedure(procedure), [settings], range(seeds), listen))
+    author = load_procedure(procedure)
+    found = []
+    for variant in variants(settings, compare):
+        with progress_bars(err) as listen:
+            trials = list(run_trials(author, [variant], range(seeds), listen))
+        seconds = [trial.seconds for trial in trials]
+        record = {"cameras": variant.cameras, "views": variant.views, "parameters": summary(trials), "seconds": seconds}
+        found.append(record)
+        if not json:
+            if compare:
+                out.print(f"\n[bold]{variant.cameras} cameras, {variant.views}[/]", highlight=False)
+            print_trials(out, trials)
     if json:
-        print_json({"parameters": summary(trials), "seconds": [trial.seconds for trial in trials]})
-    else:
-        print_trials(out, trials)
+        print_json({"variants": found} if compare else found[0])
 
 
 @app.command()
