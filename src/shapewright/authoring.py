@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.comparison.grouping import Group
+from shapewright.facing import quarter_turns
 from shapewright.iteration import Iteration, draw_pictures
 from shapewright.judge import Judge
 from shapewright.learning import Lesson, learn, learn_more, limits_of
@@ -25,7 +26,7 @@ from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.adaptive import around
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.lookup import nearest
-from shapewright.prediction.refinement import QUICK, THOROUGH, refine
+from shapewright.prediction.refinement import refine
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.records import to_record
@@ -65,6 +66,11 @@ def fit(
             stages.answer(answer, "carried over")
         watch = None if previous else partial(_first_answer, references, stages, settings)
         lesson = learn(procedure, crew, settings, stages, previous.predictor if previous else None, watch)
+        turns = [0] * len(references)
+        if settings.facing == "found":
+            stages.begin("face", len(references))
+            turns = quarter_turns(references, lesson.predictor, crew)
+            references = references.turned(turns)
         stages.begin("describe", len(references))
         judge = Judge.of(references, settings, cache)
         found = _Found.none(len(references))
@@ -100,6 +106,7 @@ def fit(
             "samples": predictor.samples,
             **lesson.facts,
             "first_answer": stages.first_answer,
+            "turned": {name: 90 * turn for name, turn in zip(references.names, turns, strict=True) if turn},
             "epochs": len(predictor.curve),
             "curve": [vars(epoch) for epoch in predictor.curve],
             "validation": predictor.metrics,
@@ -168,10 +175,11 @@ def _replicate(
         procedure.space,
         [column[rows] for column in inferred],
         crew,
-        lambda pairs: judge.search_costs([(int(rows[i]), mesh) for i, mesh in pairs]),
-        QUICK if settings.refine == "quick" else THOROUGH,
+        lambda pairs: judge.search_residuals([(int(rows[i]), shape) for i, shape in pairs]),
+        lesson.budget(settings),
         settings.seed,
         [known[i] for i in rows],
+        judge.goal,
         stages.step,
     )
     vectors = found.parameters(predicted)

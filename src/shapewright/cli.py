@@ -91,6 +91,10 @@ def fit(
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
     ] = "free",
+    facing: Annotated[
+        Literal["given", "found"],
+        typer.Option(help="found turns each reference by the quarter turns about the up axis that fit best."),
+    ] = "given",
     up: Annotated[str, typer.Option(help="The axis of the files that points up: x, y, z, -x, -y, -z.")] = "y",
     front: Annotated[
         str | None, typer.Option(help="The axis that points to the front.  [dim]default: z, or -y where up is z[/]")
@@ -114,6 +118,7 @@ def fit(
         device=device,
         threshold=threshold,
         align=align,
+        facing=facing,
         shape_seconds=time_limit,
         shape_memory_mb=memory_limit,
         workers=workers,

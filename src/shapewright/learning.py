@@ -6,15 +6,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from shapewright.building import Build, Limits, Workers, describe_failures
-from shapewright.parameters import Parameters
+from shapewright.parameters import Parameters, Scalar
 from shapewright.prediction.dataset import Dataset, join, make_dataset, meshes_of, split
 from shapewright.prediction.devices import pick
 from shapewright.prediction.evaluation import measure
 from shapewright.prediction.predictor import Predictor
+from shapewright.prediction.refinement import QUICK, THOROUGH, Budget
 from shapewright.prediction.sensitivity import without_effect
 from shapewright.prediction.training import Epoch, Schedule, train_network
-from shapewright.prediction.vgg import find_weights
+from shapewright.prediction.vgg import VGG19Network, find_weights
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.rendering.cameras import Camera, starting_views
@@ -34,6 +37,14 @@ class Lesson:
     validation: Dataset
     held_out: Dataset
     facts: dict[str, Any]
+
+    def budget(self, settings: Settings) -> Budget:
+        """How long to refine: what the settings say, or less where a shape takes long to build."""
+        budget, seconds = QUICK, settings.refine_seconds
+        if settings.refine == "thorough":
+            budget, seconds = THOROUGH, 10.0 * settings.refine_seconds
+        scalars = sum(isinstance(parameter, Scalar) for parameter in self.predictor.space)
+        return budget.within(seconds / max(self.facts["build_seconds"], 1e-6), scalars)
 
 
 def train(procedure: Procedure, settings: Settings | None = None, progress: Listener | None = None) -> Predictor:
@@ -60,6 +71,7 @@ def learn(
     called with the first FIRST samples as soon as they are drawn.
     """
     space = procedure.space
+    schedule = _schedule(settings, previous)
     vectors = space.sample(settings.samples, seed=settings.seed)
     cameras = starting_views(settings.views, settings.camera_distance)
     if previous and len(previous.cameras) == settings.views:
@@ -76,14 +88,14 @@ def learn(
     parts = [data.take(rows) for rows in split(len(data), settings.seed)]
     failed = [build for build in builds if build.failure]
     facts = {
+        "build_seconds": float(np.median([build.seconds for build in builds])),
         "failed": len(failed),
         "failures": describe_failures(failed) if failed else "",
         "without_effect": inert,
         "cameras": {"before": _places(cameras)},
-        "device": pick(settings.device).type,
+        "device": pick(schedule.device).type,
     }
-    epochs = settings.warm_epochs if previous else settings.epochs
-    return _train(procedure, parts, facts, settings, epochs, stages, previous)
+    return _train(procedure, parts, facts, settings, schedule, stages, previous)
 
 
 def learn_more(
@@ -104,7 +116,8 @@ def learn_more(
         return lesson
     training = join([lesson.training, _draw(procedure, fresh, lesson.predictor.cameras, settings)])
     parts = [training, lesson.validation, lesson.held_out]
-    return _train(procedure, parts, lesson.facts, settings, settings.warm_epochs, stages, lesson.predictor)
+    schedule = _schedule(settings, lesson.predictor)
+    return _train(procedure, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
 
 
 def limits_of(settings: Settings) -> Limits:
@@ -117,16 +130,15 @@ def _train(
     parts: Sequence[Dataset],
     facts: dict[str, Any],
     settings: Settings,
-    epochs: int,
+    schedule: Schedule,
     stages: Stages,
     previous: Predictor | None,
 ) -> Lesson:
     training, validation, held_out = parts
-    schedule = _schedule(settings, epochs)
-    stages.begin("train", epochs)
+    stages.begin("train", schedule.epochs)
 
     def tell(epoch: Epoch) -> None:
-        stages.step(epoch.epoch, epochs, f"validation loss {epoch.validation:.3f}")
+        stages.step(epoch.epoch, schedule.epochs, f"validation loss {epoch.validation:.3f}")
 
     initial = previous.network if previous else None
     trained = train_network(procedure.space, training, validation, schedule, tell, settings.workers, initial)
@@ -153,16 +165,18 @@ def _draw(procedure: Procedure, builds: Sequence[Build], cameras: Sequence[Camer
     return make_dataset(procedure.space, vectors, meshes, cameras, settings.image_size, settings.workers)
 
 
-def _schedule(settings: Settings, epochs: int) -> Schedule:
+def _schedule(settings: Settings, previous: Predictor | None) -> Schedule:
+    """How to train; weights are looked for here, so that a wrong path fails before anything is built."""
+    starts = settings.network == "vgg19" and not (previous and isinstance(previous.network, VGG19Network))
     return Schedule(
-        epochs=epochs,
+        epochs=settings.warm_epochs if previous else settings.epochs,
         batch=settings.batch,
         learning_rate=settings.learning_rate,
         weight_decay=settings.weight_decay,
         optimiser=settings.optimiser,
         camera_rate=settings.camera_rate if settings.cameras == "learned" else 0.0,
         network=settings.network,
-        weights=find_weights(settings.weights) if settings.network == "vgg19" else None,
+        weights=find_weights(settings.weights) if starts else None,
         device=settings.device,
         seed=settings.seed,
     )
