@@ -95,7 +95,7 @@ def draw(shapes: Sequence[tuple[Mesh, str]], columns: int, seed: int) -> Image.I
     for (_, colour, cover), area in zip(tiles, areas(canvas, columns), strict=False):
         area += colour - area * cover[..., None]
     inner = canvas[border // 4 : -border // 4, border // 4 : -border // 4]
-    return Image.fromarray(inner.round().astype(np.uint8)).quantize(128)
+    return Image.fromarray(inner.round().astype(np.uint8)).quantize(256)
 
 
 def areas(canvas: Floats, columns: int) -> Iterator[Floats]:
