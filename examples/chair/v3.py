@@ -1,4 +1,4 @@
-"""Chairs, version 3: six bases, splayed legs, backs that lean and curve. Lengths are parts of the height, which is 1."""
+"""Chairs, version 3: six bases, splayed legs, leaning and curved backs. Lengths are parts of the height, which is 1."""
 
 import math
 from typing import Annotated, Literal
