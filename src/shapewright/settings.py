@@ -24,7 +24,8 @@ class Settings:
 
     refine: how long to search for better parameters from the predicted ones, by the judge's measure.
 
-    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18). cut: groups are
+    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18); fidelity: of a
+    drawing instead the least visual information fidelity (VIF), above which the paper counts from 0.05. cut: groups are
     merged up to this share of the largest distance between incompatible references (paper: 0.4), or up to this
     distance itself when cut_absolute. align: "free" compares in all rotations as the paper does, "upright" about the
     up axis only.
@@ -53,6 +54,7 @@ class Settings:
     round_samples: int = 1000
     refine: Literal["off", "quick", "thorough"] = "quick"
     threshold: float = 0.18
+    fidelity: float = 0.05
     cut: float = 0.4
     cut_absolute: bool = False
     align: Literal["free", "upright"] = "free"
@@ -64,6 +66,8 @@ class Settings:
         for name in ("samples", "epochs", "batch", "learning_rate", "threshold", "shape_seconds", "shape_memory_mb"):
             if not getattr(self, name) > 0:
                 raise ValueError(f"{name}={getattr(self, name)} must be greater than 0")
+        if not 0.0 < self.fidelity < 1.0:
+            raise ValueError(f"fidelity={self.fidelity} must lie between 0 and 1")
         if self.batch < 8:
             raise ValueError(f"batch={self.batch}: a training step needs at least 8 samples")
         if self.samples < 20:

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
-from shapewright.shapes import Mesh
+from shapewright.shapes import Shape
 
 Floats = NDArray[np.float64]
-Measure = Callable[[Sequence[tuple[int, Mesh]]], Sequence[float]]
+Measure = Callable[[Sequence[tuple[int, Shape]]], Sequence[float]]
 """Costs of replicas, each given with the index of its reference; lower is better."""
 
 
@@ -138,8 +138,8 @@ def _propose(
 
 def _costs(measure: Measure, references: Sequence[int], builds: Sequence[Build]) -> Floats:
     costs = np.full(len(builds), np.inf)
-    built = [k for k, build in enumerate(builds) if isinstance(build.shape, Mesh)]
-    pairs = [(references[k], shape) for k in built if isinstance(shape := builds[k].shape, Mesh)]
+    built = [k for k, build in enumerate(builds) if build.shape is not None]
+    pairs = [(references[k], shape) for k in built if (shape := builds[k].shape) is not None]
     costs[built] = measure(pairs)
     return costs
 

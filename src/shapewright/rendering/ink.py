@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from typing import TypeAlias
 
 import numpy as np
@@ -35,6 +36,15 @@ def picture(drawing: Drawing, size: int, supersample: int) -> Bytes:
         fill((scaled + HALF) * (side / (2.0 * HALF)) - 0.5, rings, samples[channel])
     blocks = samples.reshape(2, size, supersample, size, supersample)
     return np.asarray(blocks.mean(axis=(2, 4)) * 255.0 + 0.5).astype(np.uint8)
+
+
+def png(drawing: Drawing, size: int = 512) -> bytes:
+    """A PNG file of a drawing, black on white, its largest extent nearly filling size x size pixels."""
+    from PIL import Image
+
+    buffer = io.BytesIO()
+    Image.fromarray(255 - picture(drawing, size, 4)[0]).save(buffer, "PNG", optimize=True)
+    return buffer.getvalue()
 
 
 def outlines(drawing: Drawing) -> tuple[Floats, Ints]:
