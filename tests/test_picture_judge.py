@@ -7,7 +7,8 @@ from shapewright.building import Build
 from shapewright.judge import Judge, judge_of
 from shapewright.modelling.drawing import box, circle
 from shapewright.modelling.solids import box as block
-from shapewright.picture_judge import PictureJudge
+from shapewright.picture_judge import SMALL, UNIT, PictureJudge
+from shapewright.rendering.ink import HALF
 
 
 def table(leg=0.08, height=0.7):
@@ -39,11 +40,18 @@ def test_distance_is_fidelity_lost(judge):
     assert 0.0 < distances[3] <= judge.metric.threshold == 0.95 < distances[1]
 
 
-def test_search_costs_and_overlaps_are_of_areas(judge):
-    same, other, mesh = judge.search_costs([(3, table()), (3, table(0.1)), (3, block(1).mesh())])
-    assert same == pytest.approx(0, abs=1e-9) and 0.05 < other < 0.2 and np.isinf(mesh)
+def test_residuals_and_overlaps_are_of_areas(judge):
+    same, other, mesh = judge.search_residuals([(3, table()), (3, table(0.1)), (3, block(1).mesh())])
+    assert mesh is None and not same.any()
+    pixels = np.abs(other).sum() / UNIT * (2 * HALF / SMALL) ** 2
+    assert pixels == pytest.approx(2 * 0.02 * 0.64, rel=0.02)
     iou, surface = judge.overlaps(builds(table(height=0.4), table(), None, table(0.1)))
-    assert iou[0] == pytest.approx(1) and iou[1] < 0.4 and np.isnan(iou[2]) and iou[3] == pytest.approx(1 - other)
+    assert (
+        iou[0] == pytest.approx(1)
+        and iou[1] < 0.4
+        and np.isnan(iou[2])
+        and iou[3] == pytest.approx(1 - 0.0256 / 0.188, abs=0.01)
+    )
     assert np.isnan(surface).all()
 
 

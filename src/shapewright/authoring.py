@@ -26,7 +26,7 @@ from shapewright.picture_judge import PictureJudge
 from shapewright.prediction.adaptive import around
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.lookup import nearest
-from shapewright.prediction.refinement import QUICK, THOROUGH, refine
+from shapewright.prediction.refinement import refine
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.records import to_record
@@ -170,10 +170,11 @@ def _replicate(
         procedure.space,
         [column[rows] for column in inferred],
         crew,
-        lambda pairs: judge.search_costs([(int(rows[i]), shape) for i, shape in pairs]),
-        QUICK if settings.refine == "quick" else THOROUGH,
+        lambda pairs: judge.search_residuals([(int(rows[i]), shape) for i, shape in pairs]),
+        lesson.budget(settings),
         settings.seed,
         [known[i] for i in rows],
+        judge.goal,
         stages.step,
     )
     vectors = found.parameters(predicted)

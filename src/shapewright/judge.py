@@ -68,6 +68,21 @@ class Judge:
 
         return in_threads(cost, pairs, self.settings.workers)
 
+    def search_residuals(self, pairs: Sequence[tuple[int, Shape]]) -> list[Floats | None]:
+        """What the cost of each replica is made of: vectors whose sums of absolute values are the costs, smoothed."""
+        targets = {i: AlignedCost(d) for i, _ in pairs if (d := self.descriptors[i]) is not None}
+
+        def residual(pair: tuple[int, Shape]) -> Floats | None:
+            i, shape = pair
+            return targets[i].residual(shape) if i in targets and isinstance(shape, Mesh) else None
+
+        return in_threads(residual, pairs, self.settings.workers)
+
+    @property
+    def goal(self) -> float:
+        """The cost up to which a replica is surely compatible."""
+        return self.settings.threshold * light_field.RAW_SCALE
+
     def overlaps(self, builds: Sequence[Build]) -> tuple[Floats, Floats]:
         """IoU of silhouettes and Chamfer distance of one build for each reference; NaN where there is no mesh."""
         iou, surface = np.full(len(builds), np.nan), np.full(len(builds), np.nan)

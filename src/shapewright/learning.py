@@ -6,12 +6,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from shapewright.building import Build, Limits, Workers, describe_failures
-from shapewright.parameters import Parameters
+from shapewright.parameters import Parameters, Scalar
 from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset, shapes_of, split
 from shapewright.prediction.devices import pick
 from shapewright.prediction.evaluation import measure
 from shapewright.prediction.predictor import Predictor
+from shapewright.prediction.refinement import QUICK, THOROUGH, Budget
 from shapewright.prediction.sensitivity import without_effect
 from shapewright.prediction.training import Epoch, Schedule, train_network
 from shapewright.prediction.vgg import find_weights
@@ -35,6 +38,14 @@ class Lesson:
     validation: Dataset
     held_out: Dataset
     facts: dict[str, Any]
+
+    def budget(self, settings: Settings) -> Budget:
+        """How long to refine: what the settings say, or less where a shape takes long to build."""
+        budget, seconds = QUICK, settings.refine_seconds
+        if settings.refine == "thorough":
+            budget, seconds = THOROUGH, 10.0 * settings.refine_seconds
+        scalars = sum(isinstance(parameter, Scalar) for parameter in self.predictor.space)
+        return budget.within(seconds / max(self.facts["build_seconds"], 1e-6), scalars)
 
 
 def train(procedure: Procedure, settings: Settings | None = None, progress: Listener | None = None) -> Predictor:
@@ -78,6 +89,7 @@ def learn(
     parts = [data.take(rows) for rows in split(len(data), settings.seed)]
     failed = [build for build in builds if build.failure]
     facts = {
+        "build_seconds": float(np.median([build.seconds for build in builds])),
         "failed": len(failed),
         "failures": describe_failures(failed) if failed else "",
         "without_effect": inert,

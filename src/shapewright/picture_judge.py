@@ -15,11 +15,16 @@ from shapewright.comparison import outline
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
 from shapewright.references import Collection
+from shapewright.rendering.ink import picture
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Shape
 from shapewright.threads import in_threads
 
 Floats = NDArray[np.float64]
+SMALL = 64
+"""Pixels along the side of the pictures that are compared while searching."""
+UNIT = 100.0
+"""A pixel's residual where one picture is black and the other white; the search takes a fifth of that as small."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,22 +56,32 @@ class PictureJudge:
 
         return np.array(in_threads(distance, range(len(builds)), self.settings.workers))
 
-    def search_costs(self, pairs: Sequence[tuple[int, Shape]]) -> list[float]:
-        """Costs to search by: what a replica and the reference with that index do not overlap, as a share of both."""
+    def search_residuals(self, pairs: Sequence[tuple[int, Shape]]) -> list[Floats | None]:
+        """What a replica and the reference with that index do not share: the differences of their small pictures.
 
-        def cost(asked: tuple[int, Shape]) -> float:
-            pair = self._pair(*asked)
-            return 1.0 - intersection_over_union(*pair) if pair else np.inf
+        The sum of absolute values is the area that only one of them covers. None where one cannot be seen.
+        """
+        targets = {i: _coverage(self.references.references[i].shape) for i in {i for i, _ in pairs}}
 
-        return in_threads(cost, pairs, self.settings.workers)
+        def residual(asked: tuple[int, Shape]) -> Floats | None:
+            return _coverage(asked[1]) - targets[asked[0]] if self._pair(*asked) else None
+
+        return in_threads(residual, pairs, self.settings.workers)
+
+    @property
+    def goal(self) -> None:
+        """Areas say nothing of which replica is surely compatible."""
+        return None
 
     def overlaps(self, builds: Sequence[Build]) -> tuple[Floats, Floats]:
         """IoU of one build for each reference, and no Chamfer distance; NaN where there is none."""
-        costs = self.search_costs([(i, build.shape) for i, build in enumerate(builds) if build.shape is not None])
-        iou, surface = np.full(len(builds), np.nan), np.full(len(builds), np.nan)
-        rows = [i for i, build in enumerate(builds) if build.shape is not None]
-        iou[rows] = [1.0 - cost if np.isfinite(cost) else np.nan for cost in costs]
-        return iou, surface
+
+        def overlap(row: int) -> float:
+            pair = self._pair(row, builds[row].shape)
+            return intersection_over_union(*pair) if pair else np.nan
+
+        iou = in_threads(overlap, range(len(builds)), self.settings.workers)
+        return np.array(iou), np.full(len(builds), np.nan)
 
     def groups(self, distances: Floats) -> tuple[Group, ...]:
         """The references whose distance is above the threshold or unknown, by the likeness of their outlines."""
@@ -83,6 +98,12 @@ class PictureJudge:
         if self.outlines[row] is None or not isinstance(reference, Drawing) or not isinstance(shape, Drawing):
             return None
         return (reference, shape) if outline.silhouette(shape).any() else None
+
+
+def _coverage(shape: Shape) -> Floats:
+    """(SMALL * SMALL,): how much of each pixel a drawing covers, in units of UNIT."""
+    assert isinstance(shape, Drawing)
+    return np.asarray(picture(shape, SMALL, 8)[0].ravel() * (UNIT / 255.0))
 
 
 def _describe(shape: Shape) -> outline.Outline | None:
