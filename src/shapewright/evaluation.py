@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.judge import Judge
+from shapewright.judge import judge_of
 from shapewright.learning import Lesson, learn, limits_of
 from shapewright.prediction.evaluation import Metrics, score
 from shapewright.prediction.refinement import refine
@@ -83,9 +83,9 @@ def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, 
 def _refined(procedure: Procedure, crew: Workers, lesson: Lesson, settings: Settings, stages: Stages) -> Metrics:
     """The metrics after refinement, on the first REFINED held-out rows."""
     held_out = lesson.held_out.take(np.arange(min(REFINED, len(lesson.held_out))))
-    shapes = Collection.of({f"{i:03d}": mesh for i, mesh in enumerate(held_out.meshes)})
-    judge = Judge.of(shapes, settings)
-    inferred = lesson.predictor.infer(held_out.meshes)
+    shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
+    judge = judge_of(shapes, settings)
+    inferred = lesson.predictor.infer(held_out.shapes)
     stages.begin("refine", 1)
     budget, measure = lesson.budget(settings), judge.search_residuals
     found = refine(

@@ -18,7 +18,7 @@ _CLEARLY = 0.9
 def quarter_turns(references: Collection, predictor: Predictor, crew: Workers) -> list[int]:
     """How many quarter turns, 0 to 3, bring each reference to face as the procedure's shapes do.
 
-    Each is predicted and built in all four positions; the costs of the replicas decide.
+    Each mesh is predicted and built in all four positions; the costs of the replicas decide.
     """
     costs = np.array(
         [_costs(references.turned([quarters] * len(references)), predictor, crew) for quarters in range(4)]
@@ -32,9 +32,11 @@ def _costs(references: Collection, predictor: Predictor, crew: Workers) -> list[
     shapes = [reference.shape for reference in references]
     builds = crew.build(predictor.predict(shapes))
 
-    def cost(pair: tuple[Mesh, Shape | None]) -> float:
+    def cost(pair: tuple[Shape, Shape | None]) -> float:
         reference, replica = pair
-        return AlignedCost(reference)(replica) if isinstance(replica, Mesh) else np.inf
+        if not (isinstance(reference, Mesh) and isinstance(replica, Mesh)):
+            return np.inf
+        return AlignedCost(reference)(replica)
 
     pairs = [(shape, build.shape) for shape, build in zip(shapes, builds, strict=True)]
     return in_threads(cost, pairs, crew.count)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from shapewright.building import Build, Limits, Workers, describe_failures
 from shapewright.parameters import Parameters, Scalar
-from shapewright.prediction.dataset import Dataset, join, make_dataset, meshes_of, split
+from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset, shapes_of, split
 from shapewright.prediction.devices import pick
 from shapewright.prediction.evaluation import measure
 from shapewright.prediction.predictor import Predictor
@@ -20,8 +20,9 @@ from shapewright.prediction.training import Epoch, Schedule, train_network
 from shapewright.prediction.vgg import VGG19Network, find_weights
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
-from shapewright.rendering.cameras import Camera, starting_views
+from shapewright.rendering.cameras import PAGE, Camera, starting_views
 from shapewright.settings import Settings
+from shapewright.shapes import Drawing, Shape
 
 FIRST = 256
 """Samples that are built and drawn before all others, for the first answer."""
@@ -64,27 +65,28 @@ def learn(
     stages: Stages,
     previous: Predictor | None = None,
     watch: Watcher | None = None,
+    kind: type[Shape] | None = None,
 ) -> Lesson:
     """Train on random samples of the whole space.
 
     previous: a predictor of an earlier version of the procedure, whose network and cameras are gone on from. watch:
-    called with the first FIRST samples as soon as they are drawn.
+    called with the first FIRST samples as soon as they are drawn. kind: what the procedure is to build, Mesh or
+    Drawing; by default what it builds.
     """
     space = procedure.space
     schedule = _schedule(settings, previous)
     vectors = space.sample(settings.samples, seed=settings.seed)
-    cameras = starting_views(settings.views, settings.camera_distance)
-    if previous and len(previous.cameras) == settings.views:
-        cameras = previous.cameras
     stages.begin("sample", len(vectors))
     builds = crew.build(vectors[:FIRST], give_up=True)
-    first = _draw(procedure, builds, cameras, settings)
+    kind = kind or kind_of(builds)
+    cameras = _cameras(kind, settings, previous)
+    first = _draw(procedure, builds, cameras, settings, kind)
     if watch:
         watch(first)
     builds += crew.build(vectors[FIRST:], lambda done, total: stages.step(FIRST + done, FIRST + total))
-    inert = without_effect(space, meshes_of(builds)[0], crew.build, settings.seed, settings.workers)
+    inert = without_effect(space, shapes_of(builds, kind)[0], crew.build, settings.seed, settings.workers)
     stages.begin("render", len(vectors))
-    data = join([first, _draw(procedure, builds[FIRST:], cameras, settings)]) if builds[FIRST:] else first
+    data = join([first, _draw(procedure, builds[FIRST:], cameras, settings, kind)]) if builds[FIRST:] else first
     parts = [data.take(rows) for rows in split(len(data), settings.seed)]
     failed = [build for build in builds if build.failure]
     facts = {
@@ -114,7 +116,8 @@ def learn_more(
     fresh = [build for build in builds if build.shape is not None and tuple(build.parameters.values()) not in seen]
     if not fresh:
         return lesson
-    training = join([lesson.training, _draw(procedure, fresh, lesson.predictor.cameras, settings)])
+    added = _draw(procedure, fresh, lesson.predictor.cameras, settings, lesson.training.kind)
+    training = join([lesson.training, added])
     parts = [training, lesson.validation, lesson.held_out]
     schedule = _schedule(settings, lesson.predictor)
     return _train(procedure, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
@@ -135,6 +138,8 @@ def _train(
     previous: Predictor | None,
 ) -> Lesson:
     training, validation, held_out = parts
+    if training.kind is Drawing:
+        schedule = replace(schedule, camera_rate=0.0)
     stages.begin("train", schedule.epochs)
 
     def tell(epoch: Epoch) -> None:
@@ -159,10 +164,23 @@ def _train(
     return Lesson(predictor, training, validation, held_out, {**facts, "cameras": cameras, "weights": weights})
 
 
-def _draw(procedure: Procedure, builds: Sequence[Build], cameras: Sequence[Camera], settings: Settings) -> Dataset:
-    good, meshes = meshes_of(builds)
+def _cameras(kind: type[Shape], settings: Settings, previous: Predictor | None) -> tuple[Camera, ...]:
+    """Those of the previous predictor, where it has as many."""
+    cameras = (PAGE,) if kind is Drawing else starting_views(settings.views, settings.camera_distance)
+    inherit = previous and len(previous.cameras) == len(cameras) and kind is not Drawing
+    return previous.cameras if previous and inherit else cameras
+
+
+def _draw(
+    procedure: Procedure,
+    builds: Sequence[Build],
+    cameras: Sequence[Camera],
+    settings: Settings,
+    kind: type[Shape],
+) -> Dataset:
+    good, shapes = shapes_of(builds, kind)
     vectors = [build.parameters for build in good]
-    return make_dataset(procedure.space, vectors, meshes, cameras, settings.image_size, settings.workers)
+    return make_dataset(procedure.space, vectors, shapes, cameras, settings.image_size, settings.workers)
 
 
 def _schedule(settings: Settings, previous: Predictor | None) -> Schedule:
