@@ -59,6 +59,7 @@ class _Search:
 
     arms: list[_Arm]
     rng: np.random.Generator
+    limits: tuple[Floats, Floats]
     best: Parameters | None = None
     cost: float = field(default=np.inf)
 
@@ -72,13 +73,19 @@ def refine(
     seed: int = 0,
     known: Sequence[Parameters | None] | None = None,
     progress: Callable[[int, int], None] | None = None,
+    within: tuple[Floats, Floats] | None = None,
+    spread: float = _SPREAD,
+    enough: float = -np.inf,
 ) -> list[Parameters]:
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
     inferred: per parameter (N,) encoded scalars or (N, classes) probabilities, as the predictor gives. known:
-    parameters to start from as well, such as those of the previous iteration. The cost never rises above that of the
-    prediction. A reference's result does not depend on the other references.
+    parameters to start from as well, such as those of the previous iteration. within: the least and the greatest
+    encoded scalars of each reference, (N, P), the whole space by default. spread: of the first steps, encoded. enough:
+    a cost at which the search for a reference ends. The cost never rises above that of the prediction. A reference's
+    result does not depend on the other references.
     """
+    low, high = within or (np.zeros((1, len(space))), np.ones((1, len(space))))
     count = len(inferred[0])
     widest = max(arms for arms, _ in budget.rungs)
     searches = []
@@ -86,14 +93,19 @@ def refine(
         starts = likeliest(space, [column[i] for column in inferred], widest)
         if known and (given := known[i]) is not None:
             starts = [*starts[: widest - 1], space.encode(given)]
-        searches.append(_Search([_Arm(centre) for centre in starts], np.random.default_rng([seed, i])))
+        limits = (low[min(i, len(low) - 1)], high[min(i, len(high) - 1)])
+        arms_of = [_Arm(centre, spread=spread) for centre in starts]
+        searches.append(_Search(arms_of, np.random.default_rng([seed, i]), limits))
     scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
     for number, (arms, points) in enumerate(budget.rungs):
         asked: list[tuple[int, _Arm, Floats]] = []
         for i, search in enumerate(searches):
+            if search.cost <= enough:
+                continue
             search.arms = sorted(search.arms, key=lambda arm: arm.cost)[:arms]
             for arm in search.arms:
-                asked += [(i, arm, point) for point in _propose(space, arm, points, scalars, search.rng)]
+                proposed = _propose(space, arm, points, scalars, search)
+                asked += [(i, arm, point) for point in proposed]
         vectors = [space.canonical(space.decode(point)) for _, _, point in asked]
         costs = _costs(measure, [i for i, _, _ in asked], crew.build(vectors))
         _learn(searches, asked, vectors, costs)
@@ -124,13 +136,13 @@ def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], co
 
 
 def _propose(
-    space: ParameterSpace, arm: _Arm, points: int, scalars: NDArray[np.bool_], rng: np.random.Generator
+    space: ParameterSpace, arm: _Arm, points: int, scalars: NDArray[np.bool_], search: _Search
 ) -> list[Floats]:
-    """The arm's centre when its cost is not known yet, and points around it, inside the space."""
+    """The arm's centre when its cost is not known yet, and points around it, inside the limits."""
     active = set(space.active(space.decode(arm.centre)))
     free = scalars & np.array([name in active for name in space.names])
-    steps = rng.standard_normal((points, len(arm.centre))) * arm.spread * free
-    proposed = [np.where(scalars, np.clip(arm.centre + step, 0.0, 1.0), arm.centre) for step in steps]
+    steps = search.rng.standard_normal((points, len(arm.centre))) * arm.spread * free
+    proposed = [np.where(scalars, np.clip(arm.centre + step, *search.limits), arm.centre) for step in steps]
     if np.isinf(arm.cost):
         proposed[0] = arm.centre
     return proposed if free.any() else proposed[:1]
