@@ -40,10 +40,14 @@ class Judge:
         shapes = [reference.shape for reference in references]
         return cls(references, tuple(_describe(shapes, settings.workers, cache)), settings)
 
-    def distances(self, builds: Sequence[Build]) -> Floats:
-        """Normalised light-field distance of one build for each reference, (N,); NaN where it cannot be measured."""
+    def distances(self, builds: Sequence[Build], rows: Sequence[int] | None = None) -> Floats:
+        """Normalised light-field distance of one build for each reference, (N,); NaN where it cannot be measured.
+
+        rows: indices of the references that the builds are for, all of them by default.
+        """
         described = _describe([_mesh(build) for build in builds], self.settings.workers)
-        pairs = zip(self.descriptors, described, strict=True)
+        theirs = self.descriptors if rows is None else [self.descriptors[i] for i in rows]
+        pairs = zip(theirs, described, strict=True)
         align = self.settings.align
         return np.array([light_field.distance(a, b, align) if a and b else np.nan for a, b in pairs])
 

@@ -34,7 +34,8 @@ class Region:
     side: "unexplained", of the reference; "surplus", of the replica. points: (N, 3), spread evenly over it. box:
     centre (3,), size (3,) along axes (3, 3), whose rows are unit vectors. share: of that side's visible surface, 0 to
     1. distance: mean, to the other surface. label: of the replica's part that it lies on or nearest to, None where
-    that has none. rule: of the grammar, that made that part, where there is one. faces: of that side's mesh.
+    that has none. rule: of the grammar, that made that part, where there is one. faces: of that side's mesh. rows: of
+    that side's ``Surface``.
     """
 
     side: Side
@@ -47,6 +48,7 @@ class Region:
     label: str | None
     rule: str | None
     faces: Ints
+    rows: Ints
 
     @property
     def weight(self) -> float:
@@ -58,14 +60,15 @@ class Region:
 class Residuals:
     """How far two surfaces are from each other, and where.
 
-    regions: the weightiest first. placement: takes the replica's own units to the frame of the normalised reference.
-    reference, replica: their surfaces in that frame. to_replica, to_reference: distance of each of their points to
-    the other surface, (N,) and (M,), in units of the reference's largest extent. unexplained, surplus: shares of the
-    visible surfaces that lie in regions.
+    regions: the weightiest first. mesh: the replica as it was given. placement: takes its units to the frame of the
+    normalised reference. reference, replica: their surfaces in that frame. to_replica, to_reference: distance of each
+    of their points to the other surface, (N,) and (M,), in units of the reference's largest extent. unexplained,
+    surplus: shares of the visible surfaces that lie in regions.
     """
 
     regions: tuple[Region, ...]
     placement: Transform
+    mesh: Mesh
     reference: Surface
     replica: Surface
     to_replica: Floats
@@ -106,7 +109,20 @@ def residuals(reference: Mesh, replica: Mesh, samples: int = SAMPLES, seed: int 
     centre = np.array(own.centre) + np.array(shift.centre) / own.scale
     placement = Transform(tuple(float(value) for value in centre), own.scale * shift.scale)
     ordered = tuple(sorted(regions, key=lambda region: -region.weight))
-    return Residuals(ordered, placement, of_reference, of_replica, to_replica, to_reference)
+    return Residuals(ordered, placement, replica, of_reference, of_replica, to_replica, to_reference)
+
+
+def pieces(surface: Surface, mesh: Mesh) -> NDArray[np.intp]:
+    """Which piece of the mesh each point lies on, (N,): a piece is connected and of one label; -1 where none is."""
+    result = np.full(len(surface.points), -1, dtype=np.intp)
+    labels = np.full(len(surface.points), -1) if mesh.face_labels is None else mesh.face_labels[surface.faces]
+    count = 0
+    for label in np.unique(labels[labels >= 0]):
+        rows = np.flatnonzero(surface.visible & (labels == label))
+        number, component = _connected(surface, rows)
+        result[rows] = component + count
+        count += number
+    return result
 
 
 def _regions(side: Side, surface: Surface, distance: Floats, replica: Surface, mesh: Mesh) -> Iterator[Region]:
@@ -128,20 +144,27 @@ def _regions(side: Side, surface: Surface, distance: Floats, replica: Surface, m
             _commonest(mesh, faces),
             None,
             np.unique(surface.faces[rows]),
+            rows,
         )
 
 
 def _components(surface: Surface, distance: Floats) -> list[NDArray[np.intp]]:
     """Rows of the points of each region: connected, all beyond NEAR and some beyond FAR."""
     rows = np.flatnonzero(surface.visible & (distance > NEAR))
-    if not len(rows):
-        return []
-    pairs = cKDTree(surface.points[rows]).query_pairs(2.5 * surface.spacing, output_type="ndarray")
-    links = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(rows), len(rows)))
-    count, component = connected_components(links, directed=False)
+    count, component = _connected(surface, rows)
     far = np.zeros(count, dtype=bool)
     far[component[distance[rows] > FAR]] = True
     return [rows[component == number] for number in np.flatnonzero(far)]
+
+
+def _connected(surface: Surface, rows: NDArray[np.intp]) -> tuple[int, NDArray[np.intp]]:
+    """How many connected sets these points form, and which of them each belongs to."""
+    if not len(rows):
+        return 0, np.empty(0, dtype=np.intp)
+    pairs = cKDTree(surface.points[rows]).query_pairs(2.5 * surface.spacing, output_type="ndarray")
+    links = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(rows), len(rows)))
+    count, component = connected_components(links, directed=False)
+    return int(count), component
 
 
 def _commonest(mesh: Mesh, faces: Ints) -> str | None:

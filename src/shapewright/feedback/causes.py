@@ -1,0 +1,145 @@
+"""Why a procedure does not replicate a reference, with the evidence."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from shapewright.feedback.ranges import Wish, beyond
+from shapewright.feedback.residuals import Residuals
+from shapewright.feedback.search import Found
+from shapewright.feedback.structure import differences
+from shapewright.parameters import ParameterSpace, Scalar
+
+Kind = Literal[
+    "out of range",
+    "badly predicted",
+    "wrong choice",
+    "missing part",
+    "surplus part",
+    "wrong form",
+    "not such a shape",
+]
+_HELPS = 0.2  # share of the distance that a longer Range has to take away to be a cause when it does not suffice
+_FAR = 1.25  # thresholds: an outlier that comes nearer than this is only an unusual shape
+
+
+@dataclass(frozen=True)
+class Cause:
+    """Why a reference is not replicated: in words, and what shows it, as plain values for JSON."""
+
+    kind: Kind
+    text: str
+    evidence: Mapping[str, Any] = field(default_factory=dict)
+
+
+def causes(
+    space: ParameterSpace,
+    threshold: float,
+    before: Found,
+    inside: Found,
+    outside: Found,
+    isolation: float | None,
+    residuals: Residuals,
+) -> tuple[Cause, ...]:
+    """The causes for one incompatible reference, the chief one first.
+
+    before: what the iteration found; inside: what a longer search found within the space, outside: with longer Ranges.
+    isolation: of a reference that is unlike all others, the mean distance to the nearest of them; None for any other.
+    residuals: of the reference and ``inside``'s replica.
+    """
+    if inside.distance <= threshold:
+        return (_overlooked(space, before, inside),)
+    ranges = _ranges(space, threshold, inside, outside)
+    if outside.distance <= threshold:
+        return ranges
+    strange = isolation is not None and min(inside.distance, outside.distance) > _FAR * threshold
+    parts = [Cause(part.kind, part.text, part.evidence) for part in differences(residuals)]
+    return (*([_strange(isolation)] if strange and isolation else ()), *parts, *ranges)
+
+
+def summary(space: ParameterSpace, causes_of: Mapping[str, Sequence[Cause]]) -> list[dict[str, Any]]:
+    """What the references have in common: longer Ranges by parameter and end, other causes by kind; commonest first."""
+    wishes: dict[tuple[str, str], dict[str, float]] = {}
+    kinds: dict[Kind, list[str]] = {}
+    for name, some in causes_of.items():
+        for cause in some[:1]:
+            if cause.kind != "out of range":
+                kinds.setdefault(cause.kind, []).append(name)
+        for wish in (wish for cause in some if cause.kind == "out of range" for wish in cause.evidence["wishes"]):
+            wishes.setdefault((wish["parameter"], wish["side"]), {})[name] = wish["value"]
+    ranges = []
+    for (parameter, side), values in wishes.items():
+        furthest = max(values.values()) if side == "high" else min(values.values())
+        end = getattr(space[parameter], side)
+        verb = "ends" if side == "high" else "starts"
+        want = "wants" if len(values) == 1 else "want"
+        way = "up" if side == "high" else "down"
+        text = f"{parameter}: {_count(values)} {want} {way} to {furthest:.4g}; Range {verb} at {end:.4g}"
+        entry = {"kind": "out of range", "text": text, "references": sorted(values), "parameter": parameter}
+        ranges.append({**entry, "side": side, "value": furthest, "end": end})
+    others = [{"kind": kind, "text": f"{kind}: {_count(names)}", "references": names} for kind, names in kinds.items()]
+    return sorted([*ranges, *others], key=lambda entry: -len(entry["references"]))
+
+
+def _count(names: Iterable[str]) -> str:
+    count = sum(1 for _ in names)
+    return f"{count} reference{'' if count == 1 else 's'}"
+
+
+def _overlooked(space: ParameterSpace, before: Found, found: Found) -> Cause:
+    changed = [
+        (p.name, before.parameters[p.name], found.parameters[p.name])
+        for p in space
+        if not isinstance(p, Scalar)
+        and p.name in space.active(found.parameters)
+        and before.parameters[p.name] != found.parameters[p.name]
+    ]
+    evidence = {
+        "parameters": found.parameters,
+        "distance": found.distance,
+        "before": before.distance,
+        "changed": [{"parameter": name, "was": was, "is": value} for name, was, value in changed],
+    }
+    fell = f"the distance falls from {before.distance:.2f} to {found.distance:.2f}"
+    if changed:
+        how = ", ".join(f"{name} is {_word(value)}, not {_word(was)}" for name, was, value in changed)
+        return Cause("wrong choice", f"{how}: {fell}", evidence)
+    return Cause("badly predicted", f"a longer search finds better parameters: {fell}", evidence)
+
+
+def _ranges(space: ParameterSpace, threshold: float, inside: Found, outside: Found) -> tuple[Cause, ...]:
+    wishes = beyond(space, outside.parameters)
+    enough = outside.distance <= threshold
+    if not wishes or not (enough or outside.distance < (1.0 - _HELPS) * inside.distance):
+        return ()
+    how = ", ".join(f"{wish.parameter} at {wish.value:.4g}, Range {_ends(wish)} at {wish.end:.4g}" for wish in wishes)
+    after = f"the distance would be {outside.distance:.2f} instead of {inside.distance:.2f}"
+    evidence = {
+        "wishes": [{"parameter": w.parameter, "value": w.value, "end": w.end, "side": w.side} for w in wishes],
+        "parameters": outside.parameters,
+        "distance": outside.distance,
+        "before": inside.distance,
+        "enough": enough,
+    }
+    return (Cause("out of range", f"{how}: {after}", evidence),)
+
+
+def _ends(wish: Wish) -> str:
+    return "starts" if wish.side == "low" else "ends"
+
+
+def _strange(isolation: float) -> Cause:
+    text = f"unlike all other references: the nearest are {isolation:.2f} away; perhaps it does not belong here"
+    return Cause("not such a shape", text, {"isolation": isolation})
+
+
+def _word(value: Any) -> str:
+    return ("on" if value else "off") if isinstance(value, bool) else str(value)
+
+
+def commonest(causes_of: Iterable[Sequence[Cause]]) -> Counter[str]:
+    """How many references have each kind as their chief cause."""
+    return Counter(some[0].kind for some in causes_of if some)

@@ -1,0 +1,242 @@
+"""An iteration explained: where and why each replica differs from its reference, and its form in a run's folder."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from shapewright.building import Workers
+from shapewright.feedback.causes import Cause, causes, summary
+from shapewright.feedback.outliers import isolation, outliers
+from shapewright.feedback.residuals import Region, Residuals, residuals
+from shapewright.feedback.search import Found, Inferred, Searcher
+from shapewright.iteration import Iteration
+from shapewright.judge import Judge
+from shapewright.learning import limits_of
+from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.prediction.predictor import Predictor
+from shapewright.procedure import Procedure
+from shapewright.progress import Listener, Stages
+from shapewright.references import Collection
+from shapewright.settings import Settings
+from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
+
+_DOUBT = 0.3  # probability of another class than the one that was found, where no predictor is known
+
+
+@dataclass(frozen=True, eq=False)
+class Explained:
+    """One reference, explained.
+
+    row: index of the reference in the collection. found: of the iteration. residuals: of its replica.
+    For incompatible references only: best: the nearest that a longer search found within the space. misfit: the
+    residuals of that one's replica, whose scalars are as good as they can be. causes: the chief one first.
+    """
+
+    name: str
+    row: int
+    reference: Mesh
+    compatible: bool
+    found: Found
+    residuals: Residuals
+    best: Found
+    misfit: Residuals
+    causes: tuple[Cause, ...] = ()
+
+
+Suggest = Callable[[Procedure, Sequence[Explained], Workers, Judge, Stages], Sequence[Mapping[str, Any]]]
+"""Makes the suggestions for an explained iteration, as records: kind, title, text, snippet, source, picture (PNG in
+base64 or None), references (names), gain (how many become compatible), tried (what was measured)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """Everything that is told about an iteration. summary: causes that references share, see ``causes.summary``."""
+
+    references: Mapping[str, Explained]
+    summary: Sequence[Mapping[str, Any]]
+    suggestions: Sequence[Mapping[str, Any]] = ()
+    seconds: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """As plain values for ``explanation.json``."""
+        return {
+            "format": 1,
+            "references": {name: _record(explained) for name, explained in self.references.items()},
+            "summary": [dict(entry) for entry in self.summary],
+            "suggestions": [dict(suggestion) for suggestion in self.suggestions],
+            "seconds": {stage: round(seconds, 2) for stage, seconds in self.seconds.items()},
+        }
+
+
+def explain(
+    procedure: Procedure,
+    references: Collection,
+    iteration: Iteration,
+    progress: Listener | None = None,
+    cache: Path | None = None,
+    suggest: Suggest | None = None,
+    workers: int | None = None,
+) -> Explanation:
+    """Explain every reference of an iteration that has a replica.
+
+    procedure, references: those that the iteration was made with; further references are left alone. cache: a folder
+    that keeps the references' descriptors. suggest: makes suggestions of what to write next. workers: processes and
+    threads, by default as in the iteration's settings. Raises KeyError for a collection that lacks a reference.
+    """
+    settings = Settings.from_record({**iteration.settings.record(), **({"workers": workers} if workers else {})})
+    theirs = Collection(tuple(references[name] for name in iteration.names), source=references.source)
+    stages = Stages(progress)
+    with Workers(procedure, settings.workers, limits_of(settings)) as crew:
+        stages.begin("describe", len(theirs))
+        judge = Judge.of(theirs, settings, cache)
+        stages.begin("differences", 3)
+        found = _found(procedure, iteration, crew, judge)
+        rows = sorted(found)
+        shapes = [theirs.references[row].shape for row in rows]
+        differences = _residuals(shapes, [found[row].mesh for row in rows], settings.workers)
+        searcher = Searcher(procedure.space, crew, judge, settings.seed)
+        stages.begin("causes", 4)
+        misfits = [row for row in rows if not iteration.results[row].compatible]
+        why = _causes(searcher, theirs, iteration.predictor, {row: found[row] for row in misfits}, stages)
+        explained = {}
+        for row, reference, difference in zip(rows, shapes, differences, strict=True):
+            name, best = theirs.names[row], why.best.get(row, found[row])
+            explained[name] = Explained(
+                name,
+                row,
+                reference,
+                row not in why.causes,
+                found[row],
+                difference,
+                best,
+                why.residuals.get(row, difference),
+                why.causes.get(row, ()),
+            )
+        told = summary(procedure.space, {e.name: e.causes for e in explained.values() if e.causes})
+        wanting = [e for e in explained.values() if not e.compatible]
+        suggestions = suggest(procedure, wanting, crew, judge, stages) if suggest and wanting else ()
+        stages.end()
+    return Explanation(explained, told, tuple(suggestions), stages.seconds)
+
+
+@dataclass(frozen=True, eq=False)
+class _Why:
+    """Per row of an incompatible reference."""
+
+    best: Mapping[int, Found]
+    residuals: Mapping[int, Residuals]
+    causes: Mapping[int, tuple[Cause, ...]]
+
+
+def _causes(
+    searcher: Searcher,
+    references: Collection,
+    predictor: Predictor | None,
+    found: Mapping[int, Found],
+    stages: Stages,
+) -> _Why:
+    rows = list(found)
+    if not rows:
+        return _Why({}, {}, {})
+    space, judge, before = searcher.space, searcher.judge, list(found.values())
+    shapes = [references.references[row].shape for row in rows]
+    inside = searcher.longer(rows, _inferred(space, predictor, shapes, before), before)
+    stages.step(1, 4)
+    unsolved = [i for i, best in enumerate(inside) if best.distance > searcher.threshold]
+    outside = list(inside)
+    wide = searcher.beyond([rows[i] for i in unsolved], [inside[i] for i in unsolved])
+    for i, best in zip(unsolved, wide, strict=True):
+        outside[i] = best
+    stages.step(2, 4)
+    settings = judge.settings
+    alone = isolation(judge.descriptors, settings.align, settings.workers, settings.seed)
+    strange = outliers(alone)
+    stages.step(3, 4)
+    differences = _residuals(shapes, [best.mesh for best in inside], settings.workers)
+    told = {
+        row: causes(
+            space,
+            searcher.threshold,
+            before[i],
+            inside[i],
+            outside[i],
+            float(alone[row]) if strange[row] else None,
+            differences[i],
+        )
+        for i, row in enumerate(rows)
+    }
+    return _Why(dict(zip(rows, inside, strict=True)), dict(zip(rows, differences, strict=True)), told)
+
+
+def _found(procedure: Procedure, iteration: Iteration, crew: Workers, judge: Judge) -> dict[int, Found]:
+    """What the iteration found, by row, built again: the replicas that it keeps on disk have no labels."""
+    rows = [row for row, result in enumerate(iteration.results) if result.replica is not None and result.parameters]
+    vectors = [iteration.results[row].parameters or {} for row in rows]
+    builds = crew.build([_values(procedure.space, vector) for vector in vectors], give_up=True)
+    return {
+        row: Found(build.parameters, build.shape, iteration.results[row].distance)
+        for row, build in zip(rows, builds, strict=True)
+        if isinstance(build.shape, Mesh) and np.isfinite(iteration.results[row].distance)
+    }
+
+
+def _values(space: ParameterSpace, recorded: Parameters) -> Parameters:
+    """Parameters of a record, of the types that the space has: JSON keeps 1.0 as it is, but not tuples."""
+    return {name: recorded[name] for name in space.names}
+
+
+def _inferred(
+    space: ParameterSpace, predictor: Predictor | None, shapes: Sequence[Mesh], found: Sequence[Found]
+) -> Inferred:
+    """What the predictor says, or what was found with some doubt where none is known."""
+    if predictor and [(p.name, p.classes) for p in predictor.space] == [(p.name, p.classes) for p in space]:
+        return predictor.infer(shapes)
+    columns = []
+    for parameter in space:
+        values = np.array([parameter.encode(each.parameters[parameter.name]) for each in found], dtype=np.float32)
+        if parameter.classes:
+            likely = np.full((len(found), parameter.classes), _DOUBT / parameter.classes, dtype=np.float32)
+            likely[np.arange(len(found)), values.astype(int)] += 1.0 - _DOUBT
+            values = likely
+        columns.append(values)
+    return columns
+
+
+def _residuals(references: Sequence[Mesh], replicas: Sequence[Mesh], threads: int | None) -> list[Residuals]:
+    pairs = list(zip(references, replicas, strict=True))
+    return in_threads(lambda pair: residuals(*pair), pairs, threads)
+
+
+def _record(explained: Explained) -> dict[str, Any]:
+    own, placed = explained.found.mesh.normalisation(), explained.residuals.placement
+    scale = placed.scale / own.scale
+    centre = (np.array(placed.centre) - own.centre) * own.scale
+    return {
+        "causes": [{"kind": c.kind, "text": c.text, "evidence": dict(c.evidence)} for c in explained.causes],
+        "regions": [_region(region) for region in explained.residuals],
+        "placement": {"centre": _rounded(centre), "scale": round(scale, 5)},
+    }
+
+
+def _region(region: Region) -> dict[str, Any]:
+    return {
+        "side": region.side,
+        "centre": _rounded(region.centre),
+        "size": _rounded(region.size),
+        "axes": [_rounded(axis) for axis in region.axes],
+        "share": round(region.share, 4),
+        "distance": round(region.distance, 4),
+        "label": region.label,
+        "rule": region.rule,
+    }
+
+
+def _rounded(values: Any) -> list[float]:
+    return [round(float(value), 4) for value in values]
