@@ -23,6 +23,9 @@ Kind = Literal[
     "not such a shape",
 ]
 _HELPS = 0.2  # share of the distance that a longer Range has to take away to be a cause when it does not suffice
+_BARELY = 0.8  # of the threshold
+_LACKING = 0.01  # share of the surface times distance, of a missing or surplus part that is beyond doubt
+_TOGETHER = 0.75  # of what lies apart within the space
 _FAR = 1.25  # thresholds: an outlier that comes nearer than this is only an unusual shape
 
 
@@ -35,29 +38,47 @@ class Cause:
     evidence: Mapping[str, Any] = field(default_factory=dict)
 
 
-def causes(
-    space: ParameterSpace,
-    threshold: float,
-    before: Found,
-    inside: Found,
-    outside: Found,
-    isolation: float | None,
-    residuals: Residuals,
-) -> tuple[Cause, ...]:
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What was found out about one incompatible reference.
+
+    before: what the iteration found; inside: what a longer search found within the space, outside: with longer Ranges;
+    laid: the shape within the space whose surface has most in common with the reference's, and its residuals.
+    laid_apart, outside_apart: how much of the surfaces lies apart, see ``placement.Overlay``. isolation: of a reference
+    that is unlike all others, the mean distance to the nearest of them; None for any other.
+    """
+
+    before: Found
+    inside: Found
+    outside: Found
+    laid: Found
+    residuals: Residuals
+    laid_apart: float
+    outside_apart: float
+    isolation: float | None
+
+
+def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Cause, ...]:
     """The causes for one incompatible reference, the chief one first.
 
-    before: what the iteration found; inside: what a longer search found within the space, outside: with longer Ranges.
-    isolation: of a reference that is unlike all others, the mean distance to the nearest of them; None for any other.
-    residuals: of the reference and ``inside``'s replica.
+    A search that ends below the threshold is no proof that nothing is missing: shapes grow fat to make up for parts
+    that they lack. So the surfaces have a say: other parameters or longer Ranges are the chief cause only when the
+    surfaces come together as well.
     """
-    if inside.distance <= threshold:
-        return (_overlooked(space, before, inside),)
-    ranges = _ranges(space, threshold, inside, outside)
-    if outside.distance <= threshold:
+    told = differences(found.residuals)
+    parts = [Cause(part.kind, part.text, part.evidence) for part in told]
+    lacking = told[0].kind != "wrong form" and told[0].weight > _LACKING
+    if found.inside.distance <= threshold:
+        overlooked = _overlooked(space, found.before, found.inside)
+        barely = found.inside.distance > _BARELY * threshold
+        return (*parts, overlooked) if barely and lacking else (overlooked,)
+    ranges = _ranges(space, threshold, found.inside, found.outside)
+    if ranges and found.outside.distance <= threshold and found.outside_apart < _TOGETHER * found.laid_apart:
         return ranges
-    strange = isolation is not None and min(inside.distance, outside.distance) > _FAR * threshold
-    parts = [Cause(part.kind, part.text, part.evidence) for part in differences(residuals)]
-    return (*([_strange(isolation)] if strange and isolation else ()), *parts, *ranges)
+    nearest = min(found.inside.distance, found.outside.distance)
+    if found.isolation is not None and nearest > _FAR * threshold:
+        return (_strange(found.isolation), *parts, *ranges)
+    return (*parts, *ranges)
 
 
 def summary(space: ParameterSpace, causes_of: Mapping[str, Sequence[Cause]]) -> list[dict[str, Any]]:

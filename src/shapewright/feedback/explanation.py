@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.feedback.causes import Cause, causes, summary
+from shapewright.feedback.causes import Cause, Evidence, causes, summary
 from shapewright.feedback.outliers import isolation, outliers
+from shapewright.feedback.placement import Overlay, place
 from shapewright.feedback.residuals import Region, Residuals, residuals
 from shapewright.feedback.search import Found, Inferred, Searcher
+from shapewright.feedback.surface import Surface
 from shapewright.iteration import Iteration
 from shapewright.judge import Judge
 from shapewright.learning import limits_of
@@ -34,8 +36,8 @@ class Explained:
     """One reference, explained.
 
     row: index of the reference in the collection. found: of the iteration. residuals: of its replica.
-    For incompatible references only: best: the nearest that a longer search found within the space. misfit: the
-    residuals of that one's replica, whose scalars are as good as they can be. causes: the chief one first.
+    For incompatible references only: best: the shape within the space whose surface has most in common with the
+    reference's, and misfit, its residuals: of it least is due to parameters. causes: the chief one first.
     """
 
     name: str
@@ -142,37 +144,48 @@ def _causes(
     found: Mapping[int, Found],
     stages: Stages,
 ) -> _Why:
-    rows = list(found)
+    rows, settings = list(found), searcher.judge.settings
     if not rows:
         return _Why({}, {}, {})
-    space, judge, before = searcher.space, searcher.judge, list(found.values())
+    before = list(found.values())
     shapes = [references.references[row].shape for row in rows]
-    inside = searcher.longer(rows, _inferred(space, predictor, shapes, before), before)
+    inferred = _inferred(searcher.space, predictor, shapes, before)
+    inside = searcher.longer(rows, inferred, before)
     stages.step(1, 4)
-    unsolved = [i for i, best in enumerate(inside) if best.distance > searcher.threshold]
-    outside = list(inside)
-    wide = searcher.beyond([rows[i] for i in unsolved], [inside[i] for i in unsolved])
-    for i, best in zip(unsolved, wide, strict=True):
-        outside[i] = best
+    overlays = dict(zip(rows, _overlays(shapes, inside, settings.workers), strict=True))
+    laid = searcher.laid(rows, inferred, inside, overlays)
     stages.step(2, 4)
-    settings = judge.settings
-    alone = isolation(judge.descriptors, settings.align, settings.workers, settings.seed)
-    strange = outliers(alone)
+    outside = dict(zip(rows, inside, strict=True))
+    unsolved = [row for row in rows if outside[row].distance > searcher.threshold]
+    outside |= zip(unsolved, searcher.beyond(unsolved, [outside[row] for row in unsolved]), strict=True)
     stages.step(3, 4)
-    differences = _residuals(shapes, [best.mesh for best in inside], settings.workers)
-    told = {
-        row: causes(
-            space,
-            searcher.threshold,
+    alone = isolation(searcher.judge.descriptors, settings.align, settings.workers, settings.seed)
+    strange = outliers(alone)
+    differences = _residuals(shapes, [best.mesh for best in laid], settings.workers)
+    told = {}
+    for i, row in enumerate(rows):
+        evidence = Evidence(
             before[i],
             inside[i],
-            outside[i],
-            float(alone[row]) if strange[row] else None,
+            outside[row],
+            laid[i],
             differences[i],
+            overlays[row](laid[i].mesh),
+            overlays[row](outside[row].mesh),
+            float(alone[row]) if strange[row] else None,
         )
-        for i, row in enumerate(rows)
-    }
-    return _Why(dict(zip(rows, inside, strict=True)), dict(zip(rows, differences, strict=True)), told)
+        told[row] = causes(searcher.space, searcher.threshold, evidence)
+    return _Why(dict(zip(rows, laid, strict=True)), dict(zip(rows, differences, strict=True)), told)
+
+
+def _overlays(references: Sequence[Mesh], known: Sequence[Found], threads: int | None) -> list[Overlay]:
+    """Overlays that try the fit of what is known besides the middle."""
+
+    def overlay(pair: tuple[Mesh, Found]) -> Overlay:
+        reference, replica = Surface.of(pair[0].normalised()), Surface.of(pair[1].mesh.normalised())
+        return Overlay(reference, [place(reference, replica)[0]])
+
+    return in_threads(overlay, list(zip(references, known, strict=True)), threads)
 
 
 def _found(procedure: Procedure, iteration: Iteration, crew: Workers, judge: Judge) -> dict[int, Found]:

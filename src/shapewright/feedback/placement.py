@@ -2,68 +2,119 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
+from scipy.spatial import cKDTree
 
+from shapewright.comparison.surfaces import sample
 from shapewright.feedback.surface import Surface
-from shapewright.shapes import Floats, Transform
+from shapewright.shapes import Floats, Mesh, Transform
 
+FURTHEST = 0.1
+"""Distances beyond count as this: what has no counterpart must not pull."""
 _POINTS = 160
-_FURTHEST = 0.1  # distances beyond count as this: what has no counterpart must not pull
 _CLOSE = 0.008  # mean distance at which no other place is tried
 _BETTER = 0.85  # what another place must reach of the cost in the middle
 _SAME = 0.01
+_SCALES = (0.4, 2.5)
 
 
-def place(reference: Surface, replica: Surface) -> Transform:
+@dataclass(frozen=True)
+class Fit:
+    """How one bounding box is laid over another.
+
+    axis: along which both are made equally long, None: as they are normalised. anchors: per axis what coincides, the
+    lower sides at 0, the upper ones at 1.
+    """
+
+    axis: int | None = None
+    anchors: tuple[float, float, float] = (0.5, 0.5, 0.5)
+
+    def transform(self, theirs: Floats, ours: Floats) -> Transform:
+        """The transform of ours, given both bounds, (2, 3)."""
+        extent, own = theirs[1] - theirs[0], np.maximum(ours[1] - ours[0], 1e-6)
+        scale = 1.0 if self.axis is None else float(extent[self.axis] / own[self.axis])
+        anchors = np.array(self.anchors)
+        shift = theirs[0] + anchors * extent - scale * (ours[0] + anchors * own)
+        return Transform(tuple(float(value) for value in -shift / scale), scale)
+
+
+MIDDLE = Fit()
+
+
+def place(reference: Surface, replica: Surface) -> tuple[Fit, Transform]:
     """The scale and shift of a normalised replica under which the two surfaces are nearest to each other.
 
     Tried are, per axis, equal extents, and lower sides, middles and upper sides that coincide.
     """
     theirs, ours = _thinned(reference), _thinned(replica)
-    best = Transform((0.0, 0.0, 0.0), 1.0)
-    least = _cost(reference, replica, theirs, ours, best)
+    bounds, own = _bounds(reference), _bounds(replica)
+    best = MIDDLE
+    least = apart(reference.tree, replica.tree, theirs, ours, best.transform(bounds, own))
     if least < _CLOSE:
-        return best
+        return best, best.transform(bounds, own)
     least *= _BETTER
-    for candidate in _candidates(reference.points[reference.visible], replica.points[replica.visible]):
-        cost = _cost(reference, replica, theirs, ours, candidate)
+    for fit in _different(bounds, own):
+        cost = apart(reference.tree, replica.tree, theirs, ours, fit.transform(bounds, own))
         if cost < least:
-            best, least = candidate, cost
-    return best
+            best, least = fit, cost
+    return best, best.transform(bounds, own)
 
 
-def _thinned(surface: Surface) -> Floats:
-    points = surface.points[surface.visible]
-    return points[:: max(1, len(points) // _POINTS)]
+def apart(reference: cKDTree, replica: cKDTree, theirs: Floats, ours: Floats, transform: Transform) -> float:
+    """Mean of the distances there and back of points of two surfaces, none of them beyond FURTHEST."""
+    there, _ = replica.query(transform.invert(theirs), distance_upper_bound=FURTHEST / transform.scale)
+    back, _ = reference.query(transform.apply(ours), distance_upper_bound=FURTHEST)
+    return float(np.minimum(there * transform.scale, FURTHEST).mean() + np.minimum(back, FURTHEST).mean()) / 2.0
 
 
-def _cost(reference: Surface, replica: Surface, theirs: Floats, ours: Floats, transform: Transform) -> float:
-    """Mean of the distances there and back, none of them beyond _FURTHEST."""
-    there, _ = replica.tree.query(transform.invert(theirs), distance_upper_bound=_FURTHEST / transform.scale)
-    back, _ = reference.tree.query(transform.apply(ours), distance_upper_bound=_FURTHEST)
-    return float(np.minimum(there * transform.scale, _FURTHEST).mean() + np.minimum(back, _FURTHEST).mean()) / 2.0
+class Overlay:
+    """How much of a reference's surface and of its replicas' lies apart, in the best of a few placements.
+
+    Unlike the light field distance it does not reward a replica that grows fat to make up for what it lacks: points
+    further than FURTHEST count alike, so what the two have in common decides. That tells best which parts are missing.
+    """
+
+    def __init__(self, reference: Surface, fits: Sequence[Fit]) -> None:
+        self._tree, self._points, self._bounds = reference.tree, _thinned(reference, 300), _bounds(reference)
+        self._fits = tuple(dict.fromkeys([MIDDLE, *fits]))
+
+    def __call__(self, replica: Mesh) -> float:
+        """The cost, in units of the largest extent: 0 to FURTHEST; infinite for a replica without area."""
+        normalised = replica.normalised()
+        try:
+            points = sample(normalised, 1000).points
+        except ValueError:
+            return np.inf
+        own, tree = np.stack([points.min(axis=0), points.max(axis=0)]), cKDTree(points)
+        few = points[::4]
+        transforms = [fit.transform(self._bounds, own) for fit in self._fits]
+        costs = [apart(self._tree, tree, self._points, few, t) for t in transforms if _SCALES[0] < t.scale < _SCALES[1]]
+        return min(costs)
 
 
-def _candidates(theirs: Floats, ours: Floats) -> Iterator[Transform]:
-    low, high = theirs.min(axis=0), theirs.max(axis=0)
-    own_low, own_high = ours.min(axis=0), ours.max(axis=0)
+def _different(theirs: Floats, ours: Floats) -> Iterator[Fit]:
+    """Fits whose scales differ, and whose shifts differ from each other's."""
     scales: list[float] = []
-    for scale in [1.0, *(high - low) / np.maximum(own_high - own_low, 1e-6)]:
-        if 0.4 < scale < 2.5 and all(abs(scale - other) > _SAME for other in scales):
-            scales.append(float(scale))
-    for scale in scales:
-        per_axis: list[list[float]] = []
-        for axis in range(3):
-            shifts: list[float] = []
-            for part in (0.5, 0.0, 1.0):
-                target = low[axis] + part * (high[axis] - low[axis])
-                source = own_low[axis] + part * (own_high[axis] - own_low[axis])
-                shift = float(target - scale * source)
-                if all(abs(shift - other) > _SAME for other in shifts):
-                    shifts.append(shift)
-            per_axis.append(shifts)
-        for shifts in map(list, product(*per_axis)):
-            yield Transform(tuple(-value / scale for value in shifts), scale)
+    for axis in (None, 0, 1, 2):
+        scale = Fit(axis).transform(theirs, ours).scale
+        if not _SCALES[0] < scale < _SCALES[1] or any(abs(scale - other) < _SAME for other in scales):
+            continue
+        scales.append(scale)
+        slack = np.abs((theirs[1] - theirs[0]) - scale * (ours[1] - ours[0]))
+        anchors = [(0.5, 0.0, 1.0) if gap > 2.0 * _SAME else (0.5,) for gap in slack]
+        for x, y, z in product(*anchors):
+            yield Fit(axis, (x, y, z))
+
+
+def _thinned(surface: Surface, count: int = _POINTS) -> Floats:
+    points = surface.points[surface.visible]
+    return points[:: max(1, len(points) // count)]
+
+
+def _bounds(surface: Surface) -> Floats:
+    points = surface.points[surface.visible]
+    return np.stack([points.min(axis=0), points.max(axis=0)])

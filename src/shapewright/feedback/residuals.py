@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from shapewright.feedback.boxes import Box, fit_box
-from shapewright.feedback.placement import place
+from shapewright.feedback.placement import Fit, place
 from shapewright.feedback.surface import SAMPLES, Surface
 from shapewright.shapes import Floats, Ints, Mesh, Transform
 
@@ -61,13 +61,14 @@ class Residuals:
     """How far two surfaces are from each other, and where.
 
     regions: the weightiest first. mesh: the replica as it was given. placement: takes its units to the frame of the
-    normalised reference. reference, replica: their surfaces in that frame. to_replica, to_reference: distance of each
-    of their points to the other surface, (N,) and (M,), in units of the reference's largest extent. unexplained,
-    surplus: shares of the visible surfaces that lie in regions.
+    normalised reference; fit: how it was chosen. reference, replica: their surfaces in that frame. to_replica,
+    to_reference: distance of each of their points to the other surface, (N,) and (M,), in units of the reference's
+    largest extent. unexplained, surplus: shares of the visible surfaces that lie in regions.
     """
 
     regions: tuple[Region, ...]
     placement: Transform
+    fit: Fit
     mesh: Mesh
     reference: Surface
     replica: Surface
@@ -98,7 +99,7 @@ def residuals(reference: Mesh, replica: Mesh, samples: int = SAMPLES, seed: int 
     """
     theirs, ours = reference.normalised(), replica.normalised()
     of_reference, of_replica = Surface.of(theirs, samples, seed), Surface.of(ours, samples, seed)
-    shift = place(of_reference, of_replica)
+    fit, shift = place(of_reference, of_replica)
     of_replica = of_replica.moved(shift)
     to_replica, to_reference = of_replica.distance(of_reference.points), of_reference.distance(of_replica.points)
     regions = [
@@ -109,7 +110,7 @@ def residuals(reference: Mesh, replica: Mesh, samples: int = SAMPLES, seed: int 
     centre = np.array(own.centre) + np.array(shift.centre) / own.scale
     placement = Transform(tuple(float(value) for value in centre), own.scale * shift.scale)
     ordered = tuple(sorted(regions, key=lambda region: -region.weight))
-    return Residuals(ordered, placement, replica, of_reference, of_replica, to_replica, to_reference)
+    return Residuals(ordered, placement, fit, replica, of_reference, of_replica, to_replica, to_reference)
 
 
 def pieces(surface: Surface, mesh: Mesh) -> NDArray[np.intp]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,16 +10,20 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.comparison.light_field import RAW_SCALE
+from shapewright.feedback.placement import Overlay
 from shapewright.feedback.ranges import End, inside, limits, pressed, widened
 from shapewright.feedback.ranges import beyond as wishes_of
 from shapewright.judge import Judge
 from shapewright.parameters import Integer, Parameters, ParameterSpace
 from shapewright.prediction.refinement import THOROUGH, Budget, Measure, refine
 from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
 
+Overlays = Mapping[int, Overlay]
 Inferred = Sequence[NDArray[np.float32]]
 
 FIRST = Budget(((16, 1), (6, 4), (3, 8), *((1, 8),) * 6))
+LAID = Budget(((6, 1), (4, 4), *((1, 8),) * 8))
 WIDE = Budget(((3, 2), (2, 8), *((1, 10),) * 6))
 EVALUATIONS = 20_000
 """Shapes built for all references together, about: few misfits are searched for longer than many."""
@@ -66,6 +70,24 @@ class Searcher:
             for i, found in zip(near, more, strict=True):
                 best[i] = found
         return best
+
+    def laid(self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found], overlays: Overlays) -> list[Found]:
+        """The shapes inside the space whose surfaces have most in common with the references'.
+
+        overlays: by row. A shape may be further away by the light field than what is known.
+        """
+        vectors = refine(
+            self.space,
+            inferred,
+            self.crew,
+            lambda pairs: in_threads(lambda p: overlays[rows[p[0]]](p[1]), pairs, self.judge.settings.workers),
+            LAID.within(EVALUATIONS / max(len(rows), 1)),
+            self.seed,
+            [found.parameters for found in known],
+            spread=0.12,
+        )
+        fresh = self.measured(rows, vectors)
+        return [new or old for new, old in zip(fresh, known, strict=True)]
 
     def beyond(self, rows: Sequence[int], known: Sequence[Found]) -> list[Found]:
         """The nearest shapes when the Ranges are longer at the ends that the known parameters rest on.
