@@ -32,13 +32,15 @@ class NewParameter:
 class NewRule:
     """A function to add to the file, and what the procedure makes of its shape with it.
 
-    parameters: those that are new. function: its whole text. call: an expression for the changed shape, in which
-    ``{shape}`` stands for the shape so far. imports: names that all of this needs, by module.
+    parameters: those that are new. function: its whole text, perhaps none. call: an expression for the changed shape,
+    in which ``{shape}`` stands for the shape so far. flag: an expression that says whether it is changed, None for
+    always. imports: names that all of this needs, by module.
     """
 
     parameters: tuple[NewParameter, ...]
     function: str
     call: str
+    flag: str | None
     imports: Mapping[str, tuple[str, ...]]
 
 
@@ -93,8 +95,10 @@ class _Text:
         return text.decode()
 
 
-def with_range(source: str, procedure: str, parameter: str, low: str, high: str, steps: str | None) -> str:
-    """The source with other limits in a parameter's Range; ``steps`` replaces its steps where it has some.
+def with_range(
+    source: str, procedure: str, parameter: str, low: str | None, high: str | None, steps: str | None
+) -> str:
+    """The source with other limits in a parameter's Range, or steps where it has some; what is None stays.
 
     Raises EditError when the signature does not spell the Range, in place or as a name given to the annotation.
     """
@@ -127,7 +131,7 @@ def with_rule(source: str, procedure: str, rule: NewRule) -> str:
     """
     text = _Text(source)
     function = text.function(procedure)
-    changes = [_signature(text, function, rule.parameters), *_returns(text, function, rule.call)]
+    changes = [_signature(text, function, rule.parameters), *_returns(text, function, rule)]
     if rule.function:
         place = text.line_end(text.end(function))
         changes.append(_Change(place, place, f"\n\n\n{rule.function.strip()}"))
@@ -144,18 +148,18 @@ def snippet(before: str, after: str) -> str:
     return "\n\n\n".join(["\n".join(head), *rest] if head else rest) + "\n"
 
 
-def free_name(source: str, wanted: str) -> str:
-    """A name like the one wanted that nothing in the file bears: ``shelf``, ``shelf_2``, ..."""
-    tree = ast.parse(source)
-    taken = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    taken |= {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
-    taken |= {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.ClassDef)}
-    taken |= {
-        alias.asname or alias.name
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom)
-        for alias in node.names
-    }
+def free_name(source: str, procedure: str, wanted: str) -> str:
+    """A name like the one wanted, free in the procedure and at the file's top level: ``shelf``, ``shelf_2``, ..."""
+    text = _Text(source)
+    taken = {node.id for node in ast.walk(text.function(procedure)) if isinstance(node, ast.Name)}
+    taken |= {node.arg for node in ast.walk(text.function(procedure)) if isinstance(node, ast.arg)}
+    for statement in text.tree.body:
+        if isinstance(statement, ast.FunctionDef | ast.ClassDef):
+            taken.add(statement.name)
+        elif isinstance(statement, ast.Import | ast.ImportFrom):
+            taken |= {alias.asname or alias.name for alias in statement.names}
+        else:
+            taken |= {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
     stem = re.sub(r"\W+", "_", wanted).strip("_").lower() or "part"
     stem = stem if stem[0].isalpha() else f"part_{stem}"
     name, number = stem, 1
@@ -214,7 +218,7 @@ def _comma(source: bytes, place: int) -> tuple[bool, int]:
     return (True, found.end()) if found else (False, place)
 
 
-def _returns(text: _Text, function: ast.FunctionDef, call: str) -> Iterator[_Change]:
+def _returns(text: _Text, function: ast.FunctionDef, rule: NewRule) -> Iterator[_Change]:
     statements = [node for node in _own(function) if isinstance(node, ast.Return) and node.value is not None]
     if not statements:
         raise EditError(f"{function.name} returns nothing")
@@ -223,13 +227,28 @@ def _returns(text: _Text, function: ast.FunctionDef, call: str) -> Iterator[_Cha
         start, end = text.start(statement), text.end(statement)
         expression = text.bytes[start + len("return") : end].decode().strip()
         indent = text.indent(start)
-        name = statement.value.id if isinstance(statement.value, ast.Name) else _kept(statement.value) or "shape"
-        if isinstance(statement.value, ast.Name):
-            yield _Change(start, end, f"return {call.format(shape=name)}")
-        elif indent is None:
-            yield _Change(start, end, f"return {call.format(shape=f'({expression})')}")
+        if indent is None:
+            yield _Change(start, end, f"return {_one_line(rule, f'({expression})')}")
+            continue
+        named = isinstance(statement.value, ast.Name)
+        name = expression if named else _kept(statement.value) or "shape"
+        lines = [] if named else [f"{name} = {expression}"]
+        returned = f"return {_one_line(rule, name)}"
+        if len(indent) + len(returned) <= _LINE or not rule.flag:
+            lines.append(returned)
         else:
-            yield _Change(start, end, f"{name} = {expression}\n{indent}return {call.format(shape=name)}")
+            lines.append(f"if {rule.flag}:")
+            assignment = f"    {name} = {rule.call.format(shape=name)}"
+            if len(indent) + len(assignment) > _LINE:
+                opened, arguments = assignment[:-1].split("(", 1)
+                assignment = f"{opened}(\n{indent}        {arguments}\n{indent}    )"
+            lines += [assignment, f"return {name}"]
+        yield _Change(start, end, f"\n{indent}".join(lines))
+
+
+def _one_line(rule: NewRule, shape: str) -> str:
+    call = rule.call.format(shape=shape)
+    return f"{call} if {rule.flag} else {shape}" if rule.flag else call
 
 
 def _kept(value: ast.expr) -> str | None:

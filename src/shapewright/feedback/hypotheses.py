@@ -30,7 +30,6 @@ _NEEDED = 0.985  # of the cost of a box, below which another form is taken
 _PRICE = 220.0  # cost that each part taken away and each piece must save
 _OVERLAP = 0.2
 _INSETS = (0.62, 0.71, 0.82, 0.91)
-_UPRIGHT: tuple[Kind, ...] = ("cylinder", "frustum", "foot", "sphere")
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +105,7 @@ def _simple(replica: Mesh, found: Residuals, blank: Hypothesis) -> Iterator[Hypo
                 if (x, z) != (1.0, 1.0) and (x == z or 1.0 in (x, z)):
                     yield replace(blank, inset=(label,), scale=(x, z))
         middle = (float(bounds[:, 0].mean()), float(bounds[:, 2].mean()))
-        for kind in ("cylinder", "sphere", "box"):
+        for kind in ("cylinder", "box"):
             piece = Piece(kind, bounds[0], bounds[1], middle=middle)
             yield replace(blank, removed=(label,), pieces=(piece,))
             if len(replica.label_names) > 1:
@@ -197,7 +196,9 @@ def _shaped(hypothesis: Hypothesis, replica: Mesh, costs: Costs) -> Hypothesis:
 def _forms(piece: Piece) -> tuple[Kind, ...]:
     width, height, depth = piece.size
     if 0.7 < width / depth < 1.4:
-        return _UPRIGHT if height > 0.2 * width else ("cylinder",)
+        if 0.7 < height / width < 1.4:
+            return ("cylinder", "frustum", "foot", "sphere")
+        return ("cylinder", "frustum", "foot") if height > 0.2 * width else ("cylinder",)
     if 0.7 < height / depth < 1.4 and width > depth:
         return ("rod x",)
     return ("rod z",) if 0.7 < height / width < 1.4 and depth > width else ("cylinder",)

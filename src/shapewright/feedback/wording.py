@@ -22,6 +22,7 @@ Frames = Mapping[str, Floats]
 
 _AGREE = 0.7  # share of the misfits that have to agree
 _FLUSH = 0.045  # of the whole's largest extent
+_LARGE = 1.3  # of a frame: it is no measure for what is larger
 _ALIKE = 1.35  # greatest ratio of two sizes that are one
 _CORNERS = (("left", "bottom", "back"), ("right", "top", "front"))
 _SIDES = ("width", "height", "depth")
@@ -77,7 +78,8 @@ class Rule:
         imports = {"shapewright.modelling.solids": self.imports} if self.imports else {}
         if self.quantities:
             imports = {"typing": ("Annotated",), "shapewright": ("Range",), **imports}
-        return NewRule(tuple(parameters), self.function, self.call, imports)
+        when = self.flag if self.function or not self.flag else f"not {self.flag}"
+        return NewRule(tuple(parameters), self.function, self.call, when, imports)
 
 
 def number(value: float) -> str:
@@ -87,18 +89,23 @@ def number(value: float) -> str:
 
 @dataclass(frozen=True)
 class _Along:
-    """A piece along one axis of a frame. size: "full" or "free"; place: how it stands; costs: quantities left free."""
+    """A piece along one axis of a frame. size: "full" or "free"; place: how it stands in it. ends: where it reaches
+    from and to, as (frame, 0 for its low or 1 for its high side), when that is not the frame itself.
+    """
 
     size: str
     place: str
     ratios: Floats
     offsets: Floats
+    ends: tuple[tuple[str, int], tuple[str, int]] | None = None
 
     @property
     def free(self) -> float:
         spread = np.ptp(np.quantile(self.ratios, [0.1, 0.9])) if self.size == "free" else 0.0
         moved = np.ptp(np.quantile(self.offsets, [0.1, 0.9])) if self.place == "free" else 0.0
-        return (self.size == "free") + (self.place == "free") + 0.5 * float(spread + moved)
+        large = self.size == "free" and float(np.median(self.ratios)) > _LARGE
+        count = (self.size == "free") + (self.place == "free") + large
+        return count + 0.5 * float(spread + moved) + 0.3 * bool(self.ends)
 
 
 def addition(
@@ -122,14 +129,10 @@ def addition(
     quantities: list[Quantity] = []
     imports: list[str] = []
     names: list[str] = []
-    standing: str | None = None
     for several, noun, label in zip(pieces, nouns, labels, strict=True):
         frame, along = _best_frame(several, frames)
         lines, asked, used = _piece_lines(several, frames, frame, along, free(noun), label or noun)
-        if frame != standing or not _covers(body, lines[0]):
-            body.append(lines[0])
-        standing = frame
-        body += lines[1:]
+        body += lines
         quantities += asked
         imports.append(used)
         names.append(free(noun))
@@ -140,10 +143,10 @@ def addition(
         rest = f"{rest}.scale(({factor}, 1, {factor}))"
     body.append(f"return {' | '.join([rest, *names])}")
     verb = "replace" if removed else "add"
-    name = free(f"{verb}_{'_and_'.join(map(_plain, removed))}" if removed else f"{verb}_{stem}")
+    name = free(f"{verb}_{_plain(removed[0])}" if removed else f"{verb}_{stem}")
     arguments = ", ".join(["shape", *(q.name for q in quantities)])
     text = "\n    ".join([f"def {name}({arguments}):", f'"""{note}"""', *body])
-    call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])}) if {stem} else {{shape}}"
+    call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
     return Rule(name, stem, text, call, tuple(quantities), tuple(dict.fromkeys(imports)))
 
 
@@ -166,20 +169,19 @@ def drawing_in(label: str, scales: Sequence[tuple[float, float]], free: Callable
 def removal(label: str, free: Callable[[str], str]) -> Rule:
     """A rule that makes a part optional."""
     flag = free(f"with_{_plain(label)}")
-    return Rule(flag, flag, "", f"{{shape}} if {flag} else {{shape}}.without({_quoted(label)})", (), ())
+    return Rule(flag, flag, "", f"{{shape}}.without({_quoted(label)})", (), ())
 
 
 def _best_frame(several: Sequence[Piece], frames: Sequence[Frames]) -> tuple[str, tuple[_Along, ...]]:
     """The frame that leaves least free; the whole shape on a tie."""
     shared = [name for name in frames[0] if all(name in each for each in frames)]
-    found = {
-        name: _along(several, [each[name] for each in frames], [each[WHOLE] for each in frames]) for name in shared
-    }
+    found = {name: _along(several, frames, name, shared) for name in shared}
     best = min(shared, key=lambda name: sum(axis.free for axis in found[name]) - 0.2 * (name == WHOLE))
     return best, found[best]
 
 
-def _along(several: Sequence[Piece], boxes: Sequence[Floats], wholes: Sequence[Floats]) -> tuple[_Along, ...]:
+def _along(several: Sequence[Piece], frames: Sequence[Frames], frame: str, shared: Sequence[str]) -> tuple[_Along, ...]:
+    boxes, wholes = [each[frame] for each in frames], [each[WHOLE] for each in frames]
     result = []
     for axis in range(3):
         low, high = (np.array([getattr(piece, end)[axis] for piece in several]) for end in ("low", "high"))
@@ -198,12 +200,35 @@ def _along(several: Sequence[Piece], boxes: Sequence[Floats], wholes: Sequence[F
         if full.mean() >= _AGREE and not mirrored:
             result.append(_Along("full", "middle", np.ones(len(several)), np.full(len(several), 0.5)))
             continue
+        ends = None if mirrored else _ends(low, high, frames, axis, slack, shared)
+        if ends:
+            result.append(_Along("full", "middle", np.ones(len(several)), np.full(len(several), 0.5), ends))
+            continue
         possible = ("high",) if mirrored else tuple(places)
         agreed = [place for place in possible if places[place].mean() >= _AGREE]
         middle = (start + end) / 2.0
         offset = ((low + high) / 2.0 - middle) / extent * 2.0 if mirrored else ((low + high) / 2.0 - start) / extent
         result.append(_Along("free", agreed[0] if agreed else "free", (high - low) / extent, offset))
     return tuple(result)
+
+
+def _ends(
+    low: Floats, high: Floats, frames: Sequence[Frames], axis: int, slack: Floats, shared: Sequence[str]
+) -> tuple[tuple[str, int], tuple[str, int]] | None:
+    """The sides of parts that pieces reach from and to, where these are two different ones."""
+    chosen: list[tuple[str, int]] = []
+    for end in (low, high):
+        best, least = None, np.inf
+        for name in shared:
+            for side in (0, 1):
+                off = np.abs(end - np.array([each[name][side, axis] for each in frames]))
+                error = float(np.minimum(off, slack).mean()) - 1e-3 * float(slack.mean()) * (name == WHOLE)
+                if (off < slack).mean() >= _AGREE and error < least:
+                    best, least = (name, side), error
+        if best is None:
+            return None
+        chosen.append(best)
+    return (chosen[0], chosen[1]) if chosen[0] != chosen[1] else None
 
 
 def _piece_lines(
@@ -217,14 +242,17 @@ def _piece_lines(
     asked: list[Quantity] = []
     shared: dict[int, int] = _shared(several, along)
     for axis in range(3):
+        if ends := along[axis].ends:
+            told = ", ".join(f"{_bounds(name)}[{side}, {axis}]" for name, side in ends)
+            lines.append(f"{_CORNERS[0][axis]}, {_CORNERS[1][axis]} = {told}")
+    for axis in range(3):
         start, end = _CORNERS[0][axis], _CORNERS[1][axis]
         if along[axis].size == "full":
             sizes.append(f"{end} - {start}")
         elif axis in shared:
             sizes.append(sizes[shared[axis]])
         else:
-            thin = axis in shared.values() or several[0].thin[axis]
-            word = "thickness" if thin and sum(several[0].thin) else _SIDES[axis]
+            word = "thickness" if several[len(several) // 2].thin[axis] else _SIDES[axis]
             if any(quantity.name == f"{name}_{word}" for quantity in asked):
                 word = _SIDES[axis]
             asked.append(Quantity(f"{name}_{word}", tuple(along[axis].ratios)))
@@ -235,7 +263,9 @@ def _piece_lines(
         start, end, size = _CORNERS[0][axis], _CORNERS[1][axis], sizes[axis]
         half = f"{size} / 2"
         boxes = [each[frame] for each in frames]
-        centred = all(abs(box[:, axis].sum()) < 2e-3 * np.ptp(box[:, axis]) + 1e-9 for box in boxes)
+        centred = along[axis].ends is None and all(
+            abs(box[:, axis].sum()) < 2e-3 * np.ptp(box[:, axis]) + 1e-9 for box in boxes
+        )
         middle = "0" if centred else f"({start} + {end}) / 2"
         place = along[axis].place
         if place == "free":
@@ -269,10 +299,19 @@ def _piece_lines(
             place = "" if about else f", about=({middle}, 0, 0)" if axis == 0 else f", about=(0, 0, {middle})"
             line += f'.mirror("{axis_name}", keep=True{place})'
     lines.append(f"{line}.label({_quoted(label)})")
-    whole = "shape.bounds" if frame == WHOLE else f"shape.part({_quoted(frame)}).bounds"
+    # Corners that are given anew, or that nothing needs, are left out of the frame.
+    anew = {word for axis in range(3) if along[axis].ends for word in (_CORNERS[0][axis], _CORNERS[1][axis])}
     text = "\n".join(lines)
-    low, high = (", ".join(word if re.search(rf"\b{word}\b", text) else "_" for word in words) for words in _CORNERS)
-    return [f"({low}), ({high}) = {whole}", *lines], asked, call.split("(")[0]
+    low, high = (
+        ", ".join(word if re.search(rf"\b{word}\b", text) and word not in anew else "_" for word in words)
+        for words in _CORNERS
+    )
+    first = [f"({low}), ({high}) = {_bounds(frame)}"] if {low, high} != {"_, _, _"} else []
+    return [*first, *lines], asked, call.split("(")[0]
+
+
+def _bounds(frame: str) -> str:
+    return "shape.bounds" if frame == WHOLE else f"shape.part({_quoted(frame)}).bounds"
 
 
 def _shared(several: Sequence[Piece], along: Sequence[_Along]) -> dict[int, int]:
@@ -286,12 +325,6 @@ def _shared(several: Sequence[Piece], along: Sequence[_Along]) -> dict[int, int]
                 if ((ratio < _ALIKE) & (ratio > 1.0 / _ALIKE)).mean() >= _AGREE:
                     shared.setdefault(second, first)
     return shared
-
-
-def _covers(body: Sequence[str], line: str) -> bool:
-    """Whether the last line that gives a frame gives the names of this one."""
-    given = [each for each in body if each.startswith("(")]
-    return bool(given) and given[-1] == line
 
 
 def _distinct(nouns: Sequence[str]) -> list[str]:
