@@ -93,6 +93,9 @@ def fit(
         source=procedure.source,
         collection={
             "source": references.source,
+            "origins": list(references.origins),
+            "up": references.up,
+            "front": references.front,
             "count": len(references),
             "skipped": {str(path): reason for path, reason in references.skipped.items()},
         },

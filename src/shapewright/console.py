@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -31,6 +31,10 @@ _DOING = {
     "refine": "refining",
     "compare": "comparing",
     "picture": "drawing pictures",
+    "differences": "comparing surfaces",
+    "causes": "looking for causes",
+    "hypotheses": "looking for rules",
+    "trials": "trying suggestions",
 }
 
 
@@ -127,6 +131,21 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
             for entry in record["references"]
         },
     }
+
+
+def print_explanation(console: Console, record: Mapping[str, Any], folder: Path) -> None:
+    """What the incompatible references have in common, and what to write next."""
+    if not record["summary"]:
+        console.print("every reference that has a replica is compatible")
+    for shared in record["summary"]:
+        like = f"  [dim]like {escape(shared['representative'])}[/]"
+        console.print(f"{escape(shared['text'])}{like}", highlight=False, soft_wrap=True)
+    for number, suggestion in enumerate(record["suggestions"], start=1):
+        title = f"\n[bold]{number}. {escape(suggestion['title'])}[/]  +{suggestion['gain']}"
+        console.print(title, highlight=False, soft_wrap=True)
+        console.print(escape(suggestion["text"]), highlight=False, soft_wrap=True)
+    spent = sum(record["seconds"].values())
+    console.print(f"\n[dim]{spent:.0f} s[/]   report: {escape(str(folder / 'report.html'))}", soft_wrap=True)
 
 
 def print_trials(console: Console, trials: Sequence[Trial]) -> None:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -81,35 +80,6 @@ def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Ca
     return (*parts, *ranges)
 
 
-def summary(space: ParameterSpace, causes_of: Mapping[str, Sequence[Cause]]) -> list[dict[str, Any]]:
-    """What the references have in common: longer Ranges by parameter and end, other causes by kind; commonest first."""
-    wishes: dict[tuple[str, str], dict[str, float]] = {}
-    kinds: dict[Kind, list[str]] = {}
-    for name, some in causes_of.items():
-        for cause in some[:1]:
-            if cause.kind != "out of range":
-                kinds.setdefault(cause.kind, []).append(name)
-        for wish in (wish for cause in some if cause.kind == "out of range" for wish in cause.evidence["wishes"]):
-            wishes.setdefault((wish["parameter"], wish["side"]), {})[name] = wish["value"]
-    ranges = []
-    for (parameter, side), values in wishes.items():
-        furthest = max(values.values()) if side == "high" else min(values.values())
-        end = getattr(space[parameter], side)
-        verb = "ends" if side == "high" else "starts"
-        want = "wants" if len(values) == 1 else "want"
-        way = "up" if side == "high" else "down"
-        text = f"{parameter}: {_count(values)} {want} {way} to {furthest:.4g}; Range {verb} at {end:.4g}"
-        entry = {"kind": "out of range", "text": text, "references": sorted(values), "parameter": parameter}
-        ranges.append({**entry, "side": side, "value": furthest, "end": end})
-    others = [{"kind": kind, "text": f"{kind}: {_count(names)}", "references": names} for kind, names in kinds.items()]
-    return sorted([*ranges, *others], key=lambda entry: -len(entry["references"]))
-
-
-def _count(names: Iterable[str]) -> str:
-    count = sum(1 for _ in names)
-    return f"{count} reference{'' if count == 1 else 's'}"
-
-
 def _overlooked(space: ParameterSpace, before: Found, found: Found) -> Cause:
     changed = [
         (p.name, before.parameters[p.name], found.parameters[p.name])
@@ -136,7 +106,7 @@ def _ranges(space: ParameterSpace, threshold: float, inside: Found, outside: Fou
     enough = outside.distance <= threshold
     if not wishes or not (enough or outside.distance < (1.0 - _HELPS) * inside.distance):
         return ()
-    how = ", ".join(f"{wish.parameter} at {wish.value:.4g}, Range {_ends(wish)} at {wish.end:.4g}" for wish in wishes)
+    how = ", ".join(f"{wish.parameter} at {wish.value:.3g}, Range {_ends(wish)} at {wish.end:.4g}" for wish in wishes)
     after = f"the distance would be {outside.distance:.2f} instead of {inside.distance:.2f}"
     evidence = {
         "wishes": [{"parameter": w.parameter, "value": w.value, "end": w.end, "side": w.side} for w in wishes],
@@ -159,8 +129,3 @@ def _strange(isolation: float) -> Cause:
 
 def _word(value: Any) -> str:
     return ("on" if value else "off") if isinstance(value, bool) else str(value)
-
-
-def commonest(causes_of: Iterable[Sequence[Cause]]) -> Counter[str]:
-    """How many references have each kind as their chief cause."""
-    return Counter(some[0].kind for some in causes_of if some)

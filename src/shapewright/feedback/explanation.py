@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.feedback.causes import Cause, Evidence, causes, summary
+from shapewright.feedback.causes import Cause, Evidence, causes
 from shapewright.feedback.outliers import isolation, outliers
 from shapewright.feedback.placement import Overlay, place
 from shapewright.feedback.residuals import Region, Residuals, residuals
 from shapewright.feedback.search import Found, Inferred, Searcher
+from shapewright.feedback.shared import Misfit, shared
 from shapewright.feedback.surface import Surface
 from shapewright.iteration import Iteration
 from shapewright.judge import Judge
@@ -36,8 +37,9 @@ class Explained:
     """One reference, explained.
 
     row: index of the reference in the collection. found: of the iteration. residuals: of its replica.
-    For incompatible references only: best: the shape within the space whose surface has most in common with the
-    reference's, and misfit, its residuals: of it least is due to parameters. causes: the chief one first.
+    For incompatible references only: nearest: what a longer search found within the space. best: the shape within the
+    space whose surface has most in common with the reference's, which may be further away by the light field; misfit:
+    its residuals, which are least due to parameters. causes: the chief one first.
     """
 
     name: str
@@ -46,6 +48,7 @@ class Explained:
     compatible: bool
     found: Found
     residuals: Residuals
+    nearest: Found
     best: Found
     misfit: Residuals
     causes: tuple[Cause, ...] = ()
@@ -58,7 +61,8 @@ base64 or None), references (names), gain (how many become compatible), tried (w
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
-    """Everything that is told about an iteration. summary: causes that references share, see ``causes.summary``."""
+    """Everything that is told about an iteration. summary: groups of references by cause, see
+    ``shared.shared``."""
 
     references: Mapping[str, Explained]
     summary: Sequence[Mapping[str, Any]]
@@ -109,20 +113,14 @@ def explain(
         why = _causes(searcher, theirs, iteration.predictor, {row: found[row] for row in misfits}, stages)
         explained = {}
         for row, reference, difference in zip(rows, shapes, differences, strict=True):
-            name, best = theirs.names[row], why.best.get(row, found[row])
+            name, its = theirs.names[row], why.get(row) or _Why(found[row], found[row], difference)
+            fits = iteration.results[row].compatible
             explained[name] = Explained(
-                name,
-                row,
-                reference,
-                row not in why.causes,
-                found[row],
-                difference,
-                best,
-                why.residuals.get(row, difference),
-                why.causes.get(row, ()),
+                name, row, reference, fits, found[row], difference, its.nearest, its.best, its.misfit, its.causes
             )
-        told = summary(procedure.space, {e.name: e.causes for e in explained.values() if e.causes})
-        wanting = [e for e in explained.values() if not e.compatible]
+        misfit = {each.name: Misfit(each.causes, each.misfit) for each in explained.values() if each.causes}
+        told = shared(procedure.space, misfit)
+        wanting = [e for e in explained.values() if e.nearest.distance > settings.threshold]
         suggestions = suggest(procedure, wanting, crew, judge, stages) if suggest and wanting else ()
         stages.end()
     return Explanation(explained, told, tuple(suggestions), stages.seconds)
@@ -130,11 +128,12 @@ def explain(
 
 @dataclass(frozen=True, eq=False)
 class _Why:
-    """Per row of an incompatible reference."""
+    """What is found out about an incompatible reference: see ``Explained``."""
 
-    best: Mapping[int, Found]
-    residuals: Mapping[int, Residuals]
-    causes: Mapping[int, tuple[Cause, ...]]
+    nearest: Found
+    best: Found
+    misfit: Residuals
+    causes: tuple[Cause, ...] = ()
 
 
 def _causes(
@@ -143,10 +142,10 @@ def _causes(
     predictor: Predictor | None,
     found: Mapping[int, Found],
     stages: Stages,
-) -> _Why:
+) -> dict[int, _Why]:
     rows, settings = list(found), searcher.judge.settings
     if not rows:
-        return _Why({}, {}, {})
+        return {}
     before = list(found.values())
     shapes = [references.references[row].shape for row in rows]
     inferred = _inferred(searcher.space, predictor, shapes, before)
@@ -174,8 +173,9 @@ def _causes(
             overlays[row](outside[row].mesh),
             float(alone[row]) if strange[row] else None,
         )
-        told[row] = causes(searcher.space, searcher.threshold, evidence)
-    return _Why(dict(zip(rows, laid, strict=True)), dict(zip(rows, differences, strict=True)), told)
+        why = causes(searcher.space, searcher.threshold, evidence)
+        told[row] = _Why(inside[i], laid[i], differences[i], why)
+    return told
 
 
 def _overlays(references: Sequence[Mesh], known: Sequence[Found], threads: int | None) -> list[Overlay]:

@@ -9,11 +9,10 @@ from itertools import product
 import numpy as np
 from scipy.spatial import cKDTree
 
-from shapewright.comparison.surfaces import sample
 from shapewright.feedback.surface import Surface
 from shapewright.shapes import Floats, Mesh, Transform
 
-FURTHEST = 0.1
+FURTHEST = 0.05
 """Distances beyond count as this: what has no counterpart must not pull."""
 _POINTS = 160
 _CLOSE = 0.008  # mean distance at which no other place is tried
@@ -79,21 +78,23 @@ class Overlay:
     """
 
     def __init__(self, reference: Surface, fits: Sequence[Fit]) -> None:
-        self._tree, self._points, self._bounds = reference.tree, _thinned(reference, 300), _bounds(reference)
+        self._reference, self._points, self._bounds = reference, _thinned(reference, 300), _bounds(reference)
         self._fits = tuple(dict.fromkeys([MIDDLE, *fits]))
 
     def __call__(self, replica: Mesh) -> float:
         """The cost, in units of the largest extent: 0 to FURTHEST; infinite for a replica without area."""
-        normalised = replica.normalised()
         try:
-            points = sample(normalised, 1000).points
+            surface = Surface.roughly(replica.normalised(), 1000)
         except ValueError:
             return np.inf
-        own, tree = np.stack([points.min(axis=0), points.max(axis=0)]), cKDTree(points)
-        few = points[::4]
+        own = _bounds(surface)
         transforms = [fit.transform(self._bounds, own) for fit in self._fits]
-        costs = [apart(self._tree, tree, self._points, few, t) for t in transforms if _SCALES[0] < t.scale < _SCALES[1]]
-        return min(costs)
+        return min(self._apart(surface, t) for t in transforms if _SCALES[0] < t.scale < _SCALES[1])
+
+    def _apart(self, surface: Surface, transform: Transform) -> float:
+        there = transform.scale * surface.distance(transform.invert(self._points))
+        back = self._reference.distance(transform.apply(surface.points[::4]))
+        return float(np.minimum(there, FURTHEST).mean() + np.minimum(back, FURTHEST).mean()) / 2.0
 
 
 def _different(theirs: Floats, ours: Floats) -> Iterator[Fit]:

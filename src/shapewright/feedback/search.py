@@ -15,20 +15,21 @@ from shapewright.feedback.ranges import End, inside, limits, pressed, widened
 from shapewright.feedback.ranges import beyond as wishes_of
 from shapewright.judge import Judge
 from shapewright.parameters import Integer, Parameters, ParameterSpace
-from shapewright.prediction.refinement import THOROUGH, Budget, Measure, refine
+from shapewright.prediction.refinement import Budget, Measure, refine
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
 
 Overlays = Mapping[int, Overlay]
 Inferred = Sequence[NDArray[np.float32]]
 
-FIRST = Budget(((16, 1), (6, 4), (3, 8), *((1, 8),) * 6))
-LAID = Budget(((6, 1), (4, 4), *((1, 8),) * 8))
-WIDE = Budget(((3, 2), (2, 8), *((1, 10),) * 6))
-EVALUATIONS = 20_000
+FIRST = Budget(((12, 1), (4, 4), (2, 8), *((1, 8),) * 5))
+LONGER = Budget(((16, 1), (6, 4), (3, 8), (2, 12), *((1, 12),) * 16))
+LAID = Budget(((6, 2), (3, 6), (2, 8), *((1, 8),) * 5))
+WIDE = Budget(((3, 2), (2, 6), *((1, 8),) * 6))
+EVALUATIONS = 24_000
 """Shapes built for all references together, about: few misfits are searched for longer than many."""
 _ENOUGH = 0.9  # of the threshold: in the pose they share, distances are upper bounds of what is judged
-_PROMISING = 1.7  # of the threshold
+_PROMISING = 1.4  # of the threshold
 _LEVEL = 0.1  # rise of the distance that is not worth a longer Range
 
 
@@ -62,10 +63,10 @@ class Searcher:
 
         inferred: what the predictor says, for these rows.
         """
-        best = self._search(rows, inferred, known, FIRST.within(EVALUATIONS / max(len(rows), 1)))
+        best = self._search(rows, inferred, known, FIRST.within(0.3 * EVALUATIONS / max(len(rows), 1)))
         near = [i for i, found in enumerate(best) if self.threshold < found.distance <= _PROMISING * self.threshold]
         if near:
-            budget = THOROUGH.within(EVALUATIONS / 2 / len(near))
+            budget = LONGER.within(0.3 * EVALUATIONS / len(near))
             more = self._search([rows[i] for i in near], [c[near] for c in inferred], [best[i] for i in near], budget)
             for i, found in zip(near, more, strict=True):
                 best[i] = found
@@ -81,10 +82,10 @@ class Searcher:
             inferred,
             self.crew,
             lambda pairs: in_threads(lambda p: overlays[rows[p[0]]](p[1]), pairs, self.judge.settings.workers),
-            LAID.within(EVALUATIONS / max(len(rows), 1)),
+            LAID.within(0.25 * EVALUATIONS / max(len(rows), 1)),
             self.seed,
             [found.parameters for found in known],
-            spread=0.12,
+            spread=0.2,
         )
         fresh = self.measured(rows, vectors)
         return [new or old for new, old in zip(fresh, known, strict=True)]
@@ -138,7 +139,7 @@ class Searcher:
             [_guess(wide, column, known, ends) for column in range(len(wide))],
             self.crew,
             self._measure(rows),
-            WIDE.within(EVALUATIONS / 2 / len(rows)),
+            WIDE.within(0.2 * EVALUATIONS / len(rows)),
             self.seed,
             [found.parameters for found in known],
             within=limits(self.space, wide, ends),

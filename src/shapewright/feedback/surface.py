@@ -24,6 +24,7 @@ _SIZE = 160
 _DISTANCE = 4.0
 _STEEPEST = 0.25  # cosine between a face and the view that still shows where it lies
 _ROUNDS = 3
+_REACH = 1.0  # spacings around a point within which its tangent plane stands for the surface
 
 
 def _all_round() -> tuple[Camera, ...]:
@@ -82,6 +83,12 @@ class Surface:
             drawn[0].area * float(visible.mean()),
         )
 
+    @classmethod
+    def roughly(cls, mesh: Mesh, count: int, seed: int = 0) -> Surface:
+        """``count`` points of the whole surface, all taken to be visible, as they are where nothing lies inside."""
+        drawn = sample(mesh, count, seed)
+        return cls(drawn.points, drawn.normals, drawn.faces, np.ones(count, dtype=bool), drawn.area)
+
     @cached_property
     def tree(self) -> cKDTree:
         """Of all points, hidden ones too."""
@@ -101,7 +108,7 @@ class Surface:
         straight, nearest = self.tree.query(points)
         above = np.abs(((points - self.points[nearest]) * self.normals[nearest]).sum(axis=1))
         aside = np.sqrt(np.maximum(straight**2 - above**2, 0.0))
-        return np.asarray(np.hypot(above, np.maximum(aside - 1.5 * self.spacing, 0.0)))
+        return np.asarray(np.hypot(above, np.maximum(aside - _REACH * self.spacing, 0.0)))
 
 
 def _depths(mesh: Mesh) -> Floats:

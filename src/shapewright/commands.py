@@ -1,0 +1,72 @@
+"""Commands about a run that is there: explain."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+
+from shapewright.options import Json, Workers
+from shapewright.workspace import cache_folder, previous_run
+
+if TYPE_CHECKING:
+    from shapewright.iteration import Iteration
+    from shapewright.procedure import Procedure
+    from shapewright.progress import Listener
+    from shapewright.references import Collection
+
+out, err = Console(), Console(stderr=True)
+Run = Annotated[Path, typer.Argument(help="Folder of a run.")]
+
+
+def explain(
+    run: Run,
+    references: Annotated[
+        str | None, typer.Option(help="Where the collection is now.  [dim]default: where it was[/]")
+    ] = None,
+    suggestions: Annotated[bool, typer.Option(help="Try what to write next; takes longer.")] = True,
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Say where and why replicas differ from their references, and what to write next; renews the run's report."""
+    from shapewright.console import print_explanation, print_json, progress_bars
+    from shapewright.feedback.again import procedure_of, references_of
+    from shapewright.feedback.explanation import explain as explain_iteration
+    from shapewright.feedback.record import write
+    from shapewright.iteration import Iteration
+
+    run = run.absolute()
+    iteration = Iteration.load(run)
+    procedure, collection = procedure_of(run, iteration), references_of(run, iteration, references)
+    try:
+        with progress_bars(err) as listen:
+            suggest = _suggest if suggestions else None
+            found = explain_iteration(procedure, collection, iteration, listen, cache_folder(), suggest, workers)
+    except KeyboardInterrupt:
+        err.print("stopped: the run is as it was")
+        raise typer.Exit(130) from None
+    record = write(run, found.record, previous_run(run, set(iteration.names)))
+    if json:
+        print_json({"run": str(run), "report": str(run / "report.html"), **record})
+    else:
+        print_explanation(out, record, run)
+
+
+def explanation_of(
+    procedure: Procedure, references: Collection, iteration: Iteration, progress: Listener | None
+) -> Callable[[Path], object]:
+    """Explain an iteration that is not saved yet; what is returned writes that into its folder."""
+    from shapewright.feedback.explanation import explain as explain_iteration
+    from shapewright.feedback.record import write_into
+
+    record = explain_iteration(procedure, references, iteration, progress, cache_folder(), _suggest).record
+    return lambda folder: write_into(folder, record)
+
+
+def _suggest(*arguments: Any) -> list[dict[str, Any]]:
+    from shapewright.feedback.suggestions import suggest
+
+    return [suggestion.record for suggestion in suggest(*arguments)]
