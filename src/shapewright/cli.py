@@ -88,7 +88,12 @@ def fit(
         typer.Option("--from", help="A run of an earlier version to go on from: quicker, and what was found stays."),
     ] = None,
     device: Device = "auto",
-    threshold: Annotated[float, typer.Option(help="Largest distance of a compatible reference.")] = Settings.threshold,
+    threshold: Annotated[
+        float | None, typer.Option(help="Largest distance of a compatible reference.  [dim]default: 0.18[/]")
+    ] = None,
+    marks: Annotated[
+        bool, typer.Option("--marks", help="Judge as the project's marks say: see [bold]shapewright mark[/].")
+    ] = False,
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
     ] = "free",
@@ -107,14 +112,13 @@ def fit(
 
     folder = (out_dir or next_run(Path("runs"))).absolute()
     check_free(folder)
-    given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
+    given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine, threshold=threshold)
     settings = Settings.preset(
         preset,
-        **given,
+        **{**(commands.judged_by_marks(folder) if marks else {}), **given},
         seed=seed,
         rounds=rounds,
         device=device,
-        threshold=threshold,
         align=align,
         shape_seconds=time_limit,
         shape_memory_mb=memory_limit,
@@ -131,6 +135,7 @@ def fit(
 
 
 app.command()(commands.explain)
+app.command()(commands.mark)
 
 
 @app.command()

@@ -1,18 +1,21 @@
-"""Commands about a run that is there: explain."""
+"""Commands about a run that is there: explain it, mark its pairs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 from rich.console import Console
 
+from shapewright.marks import marks_path
 from shapewright.options import Json, Workers
-from shapewright.workspace import cache_folder, previous_run
+from shapewright.workspace import RunError, cache_folder, previous_run
 
 if TYPE_CHECKING:
+    from shapewright.comparison.verdict import Verdict
     from shapewright.iteration import Iteration
     from shapewright.procedure import Procedure
     from shapewright.progress import Listener
@@ -53,6 +56,42 @@ def explain(
         print_json({"run": str(run), "report": str(run / "report.html"), **record})
     else:
         print_explanation(out, record, run)
+
+
+def mark(
+    run: Run,
+    name: Annotated[str, typer.Argument(help="A reference of the run.")],
+    judgement: Annotated[
+        Literal["same", "different"], typer.Argument(help="What it and its replica are, to your eye.")
+    ],
+    json: Json = False,
+) -> None:
+    """Mark a reference and its replica as the same or as different; the marks say what the threshold should be."""
+    from shapewright.console import print_json, print_verdict
+    from shapewright.marks import mark as write_mark
+
+    path = write_mark(run, name, judgement == "same")
+    found = _verdict(run)
+    if json:
+        print_json({"path": str(path), **asdict(found)})
+    else:
+        print_verdict(out, path, found)
+
+
+def judged_by_marks(folder: Path) -> dict[str, Any]:
+    """The settings that a project's marks ask for. folder: of the run to be made. Raises RunError without marks."""
+    found = _verdict(folder)
+    if not found.marks:
+        raise RunError(f"{marks_path(folder)}: no marks yet; make some with: shapewright mark RUN NAME same|different")
+    return {"threshold": found.threshold, "metric": found.metric}
+
+
+def _verdict(run: Path) -> Verdict:
+    from shapewright.comparison.verdict import verdict
+    from shapewright.marks import read_marks
+
+    marks = read_marks(run)
+    return verdict([mark.measures for mark in marks], [mark.same for mark in marks])
 
 
 def explanation_of(

@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from shapewright.building import Build
 from shapewright.comparison import light_field
 from shapewright.comparison.aligned import AlignedCost
+from shapewright.comparison.depths import depth_difference
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.silhouettes import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
+from shapewright.comparison.verdict import is_same
 from shapewright.references import Collection
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh
@@ -71,9 +73,25 @@ class Judge:
         )
         return iou, surface
 
-    def groups(self, distances: Floats) -> tuple[Group, ...]:
-        """The references whose distance is above the threshold or unknown, by likeness to each other."""
-        rows = [i for i, d in enumerate(self.descriptors) if d and not distances[i] <= self.settings.threshold]
+    def depths(self, builds: Sequence[Build]) -> Floats:
+        """Difference of depth pictures of one build for each reference, (N,); NaN where there is no mesh."""
+        depth = np.full(len(builds), np.nan)
+        rows = [i for i, build in enumerate(builds) if _mesh(build) and self.descriptors[i]]
+        ours = [mesh for i in rows if (mesh := _mesh(builds[i]))]
+        theirs = [self.references.references[i].shape for i in rows]
+        depth[rows] = depth_difference(theirs, ours, threads=self.settings.workers)
+        return depth
+
+    def compatible(self, distances: Floats, iou: Floats, depth: Floats) -> NDArray[np.bool_]:
+        """Which pairs count as the same: by the metric, where the settings have one, else by the threshold."""
+        metric = self.settings.metric
+        if metric is None:
+            return np.asarray(distances <= self.settings.threshold)
+        return np.array([is_same(metric, *row) for row in zip(distances, iou, depth, strict=True)], dtype=bool)
+
+    def groups(self, compatible: NDArray[np.bool_]) -> tuple[Group, ...]:
+        """The references that are not compatible, by likeness to each other."""
+        rows = [i for i, d in enumerate(self.descriptors) if d and not compatible[i]]
         misfits = [d for i in rows if (d := self.descriptors[i])]
         between = light_field.distances(misfits, align=self.settings.align, threads=self.settings.workers)
         names = [self.references.names[i] for i in rows]

@@ -24,7 +24,8 @@ class Settings:
 
     refine: how long to search for better parameters from the predicted ones, by the judge's measure.
 
-    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18). cut: groups are
+    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18). metric: decides
+    instead, if given: bias and weights of distance, IoU and depth difference, learned from marks. cut: groups are
     merged up to this share of the largest distance between incompatible references (paper: 0.4), or up to this
     distance itself when cut_absolute. align: "free" compares in all rotations as the paper does, "upright" about the
     up axis only.
@@ -53,6 +54,7 @@ class Settings:
     round_samples: int = 1000
     refine: Literal["off", "quick", "thorough"] = "quick"
     threshold: float = 0.18
+    metric: tuple[float, float, float, float] | None = None
     cut: float = 0.4
     cut_absolute: bool = False
     align: Literal["free", "upright"] = "free"
@@ -100,7 +102,8 @@ class Settings:
     def from_record(cls, record: dict[str, Any]) -> Settings:
         """The inverse of ``record``; entries of other versions are left out."""
         known = {field.name for field in fields(cls)}
-        return cls(**{name: value for name, value in record.items() if name in known})
+        plain: dict[str, Any] = {name: tuple(v) if isinstance(v, list) else v for name, v in record.items()}
+        return cls(**{name: value for name, value in plain.items() if name in known})
 
 
 _PRESETS: dict[str, dict[str, Any]] = {
