@@ -14,6 +14,7 @@ from shapewright.comparison import light_field
 from shapewright.comparison.aligned import AlignedCost
 from shapewright.comparison.depths import depth_difference
 from shapewright.comparison.grouping import Group, group
+from shapewright.comparison.leaders import LARGE, group_by_leaders
 from shapewright.comparison.silhouettes import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
 from shapewright.comparison.verdict import is_same
@@ -93,9 +94,16 @@ class Judge:
         """The references that are not compatible, by likeness to each other."""
         rows = [i for i, d in enumerate(self.descriptors) if d and not compatible[i]]
         misfits = [d for i in rows if (d := self.descriptors[i])]
-        between = light_field.distances(misfits, align=self.settings.align, threads=self.settings.workers)
-        names = [self.references.names[i] for i in rows]
-        return group(names, between, self.settings.cut, self.settings.cut_absolute)
+        names, settings = [self.references.names[i] for i in rows], self.settings
+        if len(rows) <= LARGE:
+            apart = light_field.distances(misfits, align=settings.align, threads=settings.workers)
+            return group(names, apart, settings.cut, settings.cut_absolute)
+
+        def between(some: Sequence[int], others: Sequence[int]) -> Floats:
+            ours, theirs = [misfits[i] for i in some], [misfits[i] for i in others]
+            return light_field.distances(ours, theirs, settings.align, settings.workers)
+
+        return group_by_leaders(names, between, settings.cut, settings.cut_absolute, seed=settings.seed)
 
 
 def _mesh(build: Build) -> Mesh | None:
