@@ -26,9 +26,10 @@ REST = "*"
 """Stands for all parts but those that are removed."""
 _SURPLUS = 0.5  # share of a part's visible surface that is surplus, from which on it may have to go
 _BETTER = 0.88  # of the replica's cost, that a hypothesis must stay below
-_NEEDED = 0.985  # of the cost of a box, below which another form is taken
+_PLAIN, _FANCY = 0.985, 0.93  # of the cost of a box, below which a plain other form is taken, or a fancy one
 _PRICE = 220.0  # cost that each part taken away and each piece must save
 _OVERLAP = 0.2
+_EVEN = 0.93
 _INSETS = (0.62, 0.71, 0.82, 0.91)
 
 
@@ -145,7 +146,18 @@ def _pieces(found: Residuals, reference: Mesh, replica: Mesh, removed: tuple[str
     surface = found.reference.points[found.reference.visible & far]
     points = found.placement.invert(filled(reference, surface) if len(surface) else surface)
     middle = replica.bounds.mean(axis=0)
+    for axis in (0, 2):  # two symmetric shapes stand middle on middle, wherever their surfaces have most in common
+        if _even(found.reference.points, 0.0, axis) and _even(replica.vertices, middle[axis], axis):
+            points[:, axis] += middle[axis] - found.placement.invert(np.zeros(3))[axis]
     return decompose(points, (float(middle[0]), float(middle[2])), 1.0 / found.placement.scale)
+
+
+def _even(points: Floats, middle: float, axis: int) -> bool:
+    """Whether points are the same on both sides of a plane across an axis, all but a few."""
+    image = points.copy()
+    image[:, axis] = 2.0 * middle - image[:, axis]
+    distance, _ = cKDTree(points).query(image[:: max(1, len(image) // 400)])
+    return bool((distance < 0.05 * np.ptp(points, axis=0).max()).mean() > _EVEN)
 
 
 def _pruned(hypothesis: Hypothesis, replica: Mesh, costs: Costs) -> Hypothesis:
@@ -187,10 +199,14 @@ def _shaped(hypothesis: Hypothesis, replica: Mesh, costs: Costs) -> Hypothesis:
             replace(hypothesis, pieces=(*hypothesis.pieces[:i], replace(piece, kind=kind), *hypothesis.pieces[i + 1 :]))
             for kind in _forms(piece)
         ]
-        best = min(_priced(forms, replica, costs), key=lambda each: each.cost, default=hypothesis)
-        if best.cost < _NEEDED * hypothesis.cost:
-            hypothesis = best
+        priced = _priced(forms, replica, costs)
+        fit = [each for each in priced if each.cost < _share(each.pieces[i].kind) * hypothesis.cost]
+        hypothesis = min(fit, key=lambda each: each.cost / _share(each.pieces[i].kind), default=hypothesis)
     return hypothesis
+
+
+def _share(kind: Kind) -> float:
+    return _FANCY if kind in ("frustum", "foot", "sphere") else _PLAIN
 
 
 def _forms(piece: Piece) -> tuple[Kind, ...]:

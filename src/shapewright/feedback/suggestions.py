@@ -91,7 +91,7 @@ def suggest(
     suggestions. References that the procedure can replicate already, as a longer search has shown, are left alone.
     """
     stages = stages or Stages(None)
-    explained = {each.row: each for each in wanting if each.best.distance > judge.settings.threshold}
+    explained = {each.row: each for each in wanting if each.nearest.distance > judge.settings.threshold}
     if not explained or not procedure.source:
         return ()
     stages.begin("hypotheses", 1)
@@ -150,8 +150,8 @@ def _glanced(
             break
         spent += len(some) * GLANCE.evaluations
         try:
-            with changed(idea.write(idea.ranges), procedure) as new:
-                if not unchanged(new, known, judge):
+            with changed(idea.write(idea.ranges), procedure, judge) as new:
+                if not unchanged(new, known):
                     continue
                 trial = tried(new, {m.row: idea.start(m) for m in some}, judge, [GLANCE], judge.settings.seed)
         except (EditError, ProcedureError):
@@ -179,14 +179,14 @@ def _confirmed(
         affordable = max(len(first), int(left / _CONFIRMED / LOOK.evaluations))
         some = (first + others)[:affordable]
         starts = {m.row: idea.start(m) for m in some}
-        with changed(idea.write(idea.ranges), procedure) as new:
+        with changed(idea.write(idea.ranges), procedure, judge) as new:
             trial = tried(new, starts, judge, [LOOK, SEARCH], judge.settings.seed)
         made = {row: trial.parameters[row] for row in trial.compatible}
         if not made:
             continue
         ranges = narrowed(idea, procedure.space, list(made.values()))
         source = idea.write(ranges)
-        with changed(source, procedure) as new:
+        with changed(source, procedure, judge) as new:
             final = tried(new, made, judge, [], judge.settings.seed)
             lost = {row: made[row] for row in made if row not in final.compatible}
             if lost:
@@ -213,9 +213,9 @@ def _shown(found: Sequence[_Tried], limit: int) -> list[_Tried]:
 
 def _suggestion(found: _Tried, procedure: Procedure, explained: Mapping[int, Explained], judge: Judge) -> Suggestion:
     idea, trial = found.proposal, found.trial
-    rows = sorted(trial.compatible, key=lambda row: trial.distances[row] - explained[row].best.distance)
+    rows = sorted(trial.compatible, key=lambda row: trial.distances[row] - explained[row].nearest.distance)
     names = tuple(judge.references.names[row] for row in sorted(rows))
-    before = {row: explained[row].best.distance for row in rows}
+    before = {row: explained[row].nearest.distance for row in rows}
     examples = [_example(explained[row], trial.replicas[row]) for row in rows[:_PICTURED]]
     gain = len(names)
     return Suggestion(

@@ -55,19 +55,25 @@ class Trial:
 
 
 @contextmanager
-def changed(source: str, procedure: Procedure) -> Iterator[Procedure]:
-    """The procedure of the same name in a changed source, loaded from a folder that is gone afterwards.
+def changed(source: str, procedure: Procedure, judge: Judge) -> Iterator[Workers]:
+    """Workers for the procedure of the same name in a changed source, loaded from a folder that is gone afterwards.
 
     Raises ProcedureError when the source does not load.
     """
+    settings = judge.settings
     with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
         path = Path(folder) / (procedure.path.name if procedure.path else f"{procedure.name}.py")
         path.write_text(source, encoding="utf-8")
-        yield load_procedure(f"{path}:{procedure.name}")
+        new, limits = (
+            load_procedure(f"{path}:{procedure.name}"),
+            Limits(settings.shape_seconds, settings.shape_memory_mb),
+        )
+        with Workers(new, settings.workers, limits) as crew:
+            yield crew
 
 
 def tried(
-    procedure: Procedure,
+    crew: Workers,
     starts: Mapping[int, Parameters],
     judge: Judge,
     budgets: Sequence[Budget],
@@ -79,17 +85,16 @@ def tried(
     themselves, moved into the procedure's Ranges.
     """
     best: dict[int, _Found] = {}
-    space = procedure.space
-    with _workers(procedure, judge) as crew:
-        rows, vectors = list(starts), [space.carry(values) for values in starts.values()]
-        if not budgets:
+    space = crew.procedure.space
+    rows, vectors = list(starts), [space.carry(values) for values in starts.values()]
+    if not budgets:
+        _judge(best, rows, vectors, crew, judge)
+    for number, budget in enumerate(budgets):
+        if rows:
+            vectors = _refined(space, crew, judge, rows, vectors, budget, seed + number)
             _judge(best, rows, vectors, crew, judge)
-        for number, budget in enumerate(budgets):
-            if rows:
-                vectors = _refined(space, crew, judge, rows, vectors, budget, seed + number)
-                _judge(best, rows, vectors, crew, judge)
-                rows = [row for row in rows if row in best and _worth_more(best[row].distance, judge)]
-                vectors = [best[row].parameters for row in rows]
+            rows = [row for row in rows if row in best and _worth_more(best[row].distance, judge)]
+            vectors = [best[row].parameters for row in rows]
     return Trial(
         {row: found.parameters for row, found in best.items()},
         {row: found.replica for row, found in best.items()},
@@ -98,10 +103,9 @@ def tried(
     )
 
 
-def unchanged(procedure: Procedure, before: Sequence[tuple[Parameters, Mesh]], judge: Judge) -> bool:
-    """Whether the procedure still builds these shapes for these parameters, as seen by the measure to search by."""
-    with _workers(procedure, judge) as crew:
-        builds = crew.build([procedure.space.carry(parameters) for parameters, _ in before])
+def unchanged(crew: Workers, before: Sequence[tuple[Parameters, Mesh]]) -> bool:
+    """Whether the procedure still builds these shapes for these parameters: the same bounds, and as much surface."""
+    builds = crew.build([crew.procedure.space.carry(parameters) for parameters, _ in before])
     for build, (_, mesh) in zip(builds, before, strict=True):
         if not isinstance(build.shape, Mesh):
             return False
@@ -125,11 +129,6 @@ class _Found:
     parameters: Parameters
     replica: Mesh
     distance: float
-
-
-def _workers(procedure: Procedure, judge: Judge) -> Workers:
-    settings = judge.settings
-    return Workers(procedure, settings.workers, Limits(settings.shape_seconds, settings.shape_memory_mb))
 
 
 def _judge(

@@ -18,10 +18,13 @@ from shapewright.shapes import Floats
 
 WHOLE = ""
 """Stands for the whole shape among the frames, which are bounding boxes (2, 3) by label."""
+_NEW = "new "
+"""Before the names of the rule's own pieces among the frames."""
 Frames = Mapping[str, Floats]
 
-_AGREE = 0.7  # share of the misfits that have to agree
-_FLUSH = 0.045  # of the whole's largest extent
+_TOUCHING = 0.5
+_AGREE = 0.5  # share of the misfits that have to agree
+_FLUSH, _TOUCH = 0.045, 0.07  # of the whole's largest extent: how near sides are that are one, or touch
 _LARGE = 1.3  # of a frame: it is no measure for what is larger
 _ALIKE = 1.35  # greatest ratio of two sizes that are one
 _CORNERS = (("left", "bottom", "back"), ("right", "top", "front"))
@@ -129,9 +132,13 @@ def addition(
     quantities: list[Quantity] = []
     imports: list[str] = []
     names: list[str] = []
+    known = [dict(each) for each in frames]
+    standing: dict[str, str] = {}
     for several, noun, label in zip(pieces, nouns, labels, strict=True):
-        frame, along = _best_frame(several, frames)
-        lines, asked, used = _piece_lines(several, frames, frame, along, free(noun), label or noun)
+        frame, along = _best_frame(several, known)
+        lines, asked, used = _piece_lines(several, known, frame, along, free(noun), label or noun, standing)
+        for each, piece in zip(known, several, strict=True):
+            each[f"{_NEW}{free(noun)}"] = np.stack([piece.low, piece.high])
         body += lines
         quantities += asked
         imports.append(used)
@@ -176,7 +183,10 @@ def _best_frame(several: Sequence[Piece], frames: Sequence[Frames]) -> tuple[str
     """The frame that leaves least free; the whole shape on a tie."""
     shared = [name for name in frames[0] if all(name in each for each in frames)]
     found = {name: _along(several, frames, name, shared) for name in shared}
-    best = min(shared, key=lambda name: sum(axis.free for axis in found[name]) - 0.2 * (name == WHOLE))
+    best = min(
+        (name for name in shared if not name.startswith(_NEW)),
+        key=lambda name: sum(axis.free for axis in found[name]) - 0.2 * (name == WHOLE),
+    )
     return best, found[best]
 
 
@@ -196,7 +206,8 @@ def _along(several: Sequence[Piece], frames: Sequence[Frames], frame: str, share
             "on": np.abs(low - end) < slack,
             "under": np.abs(high - start) < slack,
         }
-        full = (np.abs(low - start) < slack) & (np.abs(high - end) < slack) & (high - low > 0.5 * extent)
+        slim = several[0].kind not in ("box", "slats x", "slats y", "slats z") and several[0].thin[axis]
+        full = (not slim) & (np.abs(low - start) < slack) & (np.abs(high - end) < slack) & (high - low > 0.5 * extent)
         if full.mean() >= _AGREE and not mirrored:
             result.append(_Along("full", "middle", np.ones(len(several)), np.full(len(several), 0.5)))
             continue
@@ -205,7 +216,7 @@ def _along(several: Sequence[Piece], frames: Sequence[Frames], frame: str, share
             result.append(_Along("full", "middle", np.ones(len(several)), np.full(len(several), 0.5), ends))
             continue
         possible = ("high",) if mirrored else tuple(places)
-        agreed = [place for place in possible if places[place].mean() >= _AGREE]
+        agreed = sorted((p for p in possible if places[p].mean() >= _AGREE), key=lambda p: -float(places[p].mean()))
         middle = (start + end) / 2.0
         offset = ((low + high) / 2.0 - middle) / extent * 2.0 if mirrored else ((low + high) / 2.0 - start) / extent
         result.append(_Along("free", agreed[0] if agreed else "free", (high - low) / extent, offset))
@@ -221,9 +232,11 @@ def _ends(
         best, least = None, np.inf
         for name in shared:
             for side in (0, 1):
+                if axis != 1 and name != WHOLE:
+                    continue
                 off = np.abs(end - np.array([each[name][side, axis] for each in frames]))
-                error = float(np.minimum(off, slack).mean()) - 1e-3 * float(slack.mean()) * (name == WHOLE)
-                if (off < slack).mean() >= _AGREE and error < least:
+                error = float(np.minimum(off, 2.0 * slack).mean()) - 1e-3 * float(slack.mean()) * (name == WHOLE)
+                if (off < slack * (_TOUCH / _FLUSH)).mean() >= _TOUCHING and error < least:
                     best, least = (name, side), error
         if best is None:
             return None
@@ -232,9 +245,17 @@ def _ends(
 
 
 def _piece_lines(
-    several: Sequence[Piece], frames: Sequence[Frames], frame: str, along: Sequence[_Along], name: str, label: str
+    several: Sequence[Piece],
+    frames: Sequence[Frames],
+    frame: str,
+    along: Sequence[_Along],
+    name: str,
+    label: str,
+    standing: dict[str, str],
 ) -> tuple[list[str], list[Quantity], str]:
-    """Lines of code that make the piece, the first of which gives the frame; what is free; the function it needs."""
+    """Lines of code that make the piece; what is free; the function it needs. standing: corners that lines before gave,
+    and the frames they are of.
+    """
     kind = _commonest([piece.kind for piece in several])
     mirrored = several[0].mirrored
     sizes: list[str] = []
@@ -299,18 +320,27 @@ def _piece_lines(
             place = "" if about else f", about=({middle}, 0, 0)" if axis == 0 else f", about=(0, 0, {middle})"
             line += f'.mirror("{axis_name}", keep=True{place})'
     lines.append(f"{line}.label({_quoted(label)})")
-    # Corners that are given anew, or that nothing needs, are left out of the frame.
-    anew = {word for axis in range(3) if along[axis].ends for word in (_CORNERS[0][axis], _CORNERS[1][axis])}
+    # Corners that nothing needs, or that are there already, are not asked of the frame.
+    anew = [axis for axis in range(3) if along[axis].ends]
     text = "\n".join(lines)
-    low, high = (
-        ", ".join(word if re.search(rf"\b{word}\b", text) and word not in anew else "_" for word in words)
-        for words in _CORNERS
-    )
-    first = [f"({low}), ({high}) = {_bounds(frame)}"] if {low, high} != {"_, _, _"} else []
+    wanted = []
+    for axis in range(3):
+        words = [words[axis] for words in _CORNERS]
+        needed = [word for word in words if re.search(rf"\b{word}\b", text)]
+        if axis not in anew and any(standing.get(word) != frame for word in needed):
+            wanted.append(axis)
+        standing.update({word: "" if axis in anew else frame for word in words if axis in anew or axis in wanted})
+    pairs = [(axis, ", ".join(words[axis] for words in _CORNERS)) for axis in wanted]
+    first = [f"{words} = {_bounds(frame)}[:, {axis}]" for axis, words in pairs]
+    if len(wanted) == 3:
+        corners = ", ".join(f"({', '.join(words)})" for words in _CORNERS)
+        first = [f"{corners} = {_bounds(frame)}"]
     return [*first, *lines], asked, call.split("(")[0]
 
 
 def _bounds(frame: str) -> str:
+    if frame.startswith(_NEW):
+        return f"{frame.removeprefix(_NEW)}.bounds"
     return "shape.bounds" if frame == WHOLE else f"shape.part({_quoted(frame)}).bounds"
 
 
@@ -337,7 +367,11 @@ def _distinct(nouns: Sequence[str]) -> list[str]:
 
 
 def _commonest(kinds: Sequence[Kind]) -> Kind:
-    return max(dict.fromkeys(kinds), key=kinds.count)
+    """The commonest kind; a fancy one only where most agree."""
+    best = max(dict.fromkeys(kinds), key=kinds.count)
+    if best in ("frustum", "foot", "sphere") and kinds.count(best) < 0.6 * len(kinds):
+        return "cylinder"
+    return best
 
 
 def _plain(label: str) -> str:
