@@ -72,10 +72,9 @@ def main() -> None:
     parser.add_argument("--synthetic", type=int, nargs="*", default=[])
     parser.add_argument("--most", type=int, default=600)
     arguments = parser.parse_args()
-    print(
-        "| collection | shapes | cut | groups, all pairs | leaders | Rand | Rand without a twentieth | widest / cut | pairs | s | s |"
-    )
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    heads = "collection, shapes, cut, groups of all pairs, groups, Rand, Rand without 1/20, widest / cut, pairs, s, s"
+    print("| " + heads.replace(", ", " | ") + " |")
+    print(11 * "|---" + "|")
     for folder in arguments.folders:
         shapes = [reference.shape for reference in sw.Collection.load(folder)]
         compare(folder.name, light_field.descriptors(shapes), arguments.most)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from shapewright.comparison.grouping import CUT, Group, clusters
 
+Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Between = Callable[[Sequence[int], Sequence[int]], NDArray[np.float64]]
 """Distances (N, M) of shapes with these numbers to those with the others."""
@@ -16,7 +17,7 @@ Between = Callable[[Sequence[int], Sequence[int]], NDArray[np.float64]]
 LARGE = 2000
 """Shapes above which distances of all pairs are not worth their time."""
 _SAMPLE = 300
-_FINE = 0.45  # of the limit: radius of the sets that are never taken apart again
+_FINE = 0.1  # of the limit: radius, at first, of the sets that are never taken apart again
 _WIDER = 1.25
 _BATCH = 128
 _JUDGES = 64  # members that the middle of a group is measured from
@@ -42,40 +43,56 @@ def group_by_leaders(
     some = np.sort(rng.choice(len(names), min(_SAMPLE, len(names)), replace=False)).tolist()
     largest = float(between(some, some).max())
     radius = _FINE * (cut if absolute else cut * largest)
-    leaders, owner = _lead(len(names), between, radius, most)
-    apart = between(leaders, leaders)
-    np.fill_diagonal(apart, 0.0)
+    leaders, owner, gap = _lead(len(names), between, radius, most)
+    apart = _apart(leaders, owner, gap, between)
     labels = clusters(apart, cut if absolute else cut * max(largest, float(apart.max())))
     of_shape = labels[owner]
     groups = [_group(names, np.flatnonzero(of_shape == label), between, rng) for label in np.unique(labels)]
     return tuple(sorted(groups, key=lambda group: (-len(group), group.representative)))
 
 
-def _lead(count: int, between: Between, radius: float, most: int) -> tuple[list[int], Ints]:
-    """The leaders, and the index among them of each shape's; with a wider radius where there would be too many."""
+def _lead(count: int, between: Between, radius: float, most: int) -> tuple[list[int], Ints, Floats]:
+    """The leaders, the index among them of each shape's, and its distance to that one.
+
+    With a wider radius where there would be too many leaders.
+    """
     while True:
         leaders: list[int] = []
-        owner = np.zeros(count, dtype=np.int64)
+        owner, gap = np.zeros(count, dtype=np.int64), np.zeros(count)
         for start in range(0, count, _BATCH):
+            if len(leaders) > max(most, 2):
+                break
             batch = list(range(start, min(start + _BATCH, count)))
             nearest = np.full(len(batch), np.inf)
             if leaders:
                 distances = between(batch, leaders)
                 owner[batch], nearest = distances.argmin(axis=1), distances.min(axis=1)
+                gap[batch] = nearest
             alone = [number for number, distance in zip(batch, nearest, strict=True) if distance > radius]
             apart = between(alone, alone) if alone else np.zeros((0, 0))
             new: list[int] = []
             for i, number in enumerate(alone):
                 near = min(new, key=lambda other: apart[i, other], default=None)
                 if near is not None and apart[i, near] <= radius:
-                    owner[number] = owner[alone[near]]
+                    owner[number], gap[number] = owner[alone[near]], apart[i, near]
                 else:
-                    owner[number] = len(leaders)
+                    owner[number], gap[number] = len(leaders), 0.0
                     leaders.append(number)
                     new.append(i)
         if len(leaders) <= max(most, 2):
-            return leaders, owner
+            return leaders, owner, gap
         radius *= _WIDER
+
+
+def _apart(leaders: list[int], owner: Ints, gap: Floats, between: Between) -> Floats:
+    """Distances of the leaders' sets (L, L): the largest among the leader of each and the member furthest from it."""
+    furthest = list(leaders)
+    for number in np.argsort(gap, kind="stable").tolist():
+        furthest[owner[number]] = number
+    ends = [*leaders, *furthest]
+    apart = between(ends, ends).reshape(2, len(leaders), 2, len(leaders)).max(axis=(0, 2))
+    np.fill_diagonal(apart, 0.0)
+    return np.asarray(apart)
 
 
 def _group(names: Sequence[str], rows: Ints, between: Between, rng: np.random.Generator) -> Group:
