@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -106,11 +106,12 @@ def explain(
         found = _found(procedure, iteration, crew, judge)
         rows = sorted(found)
         shapes = [theirs.references[row].shape for row in rows]
-        differences = _residuals(shapes, [found[row].mesh for row in rows], settings.workers)
+        surfaces = dict(zip(rows, in_threads(Surface.of, shapes, settings.workers), strict=True))
+        differences = _residuals(surfaces.values(), [found[row].mesh for row in rows], settings.workers)
         searcher = Searcher(procedure.space, crew, judge, settings.seed)
         stages.begin("causes", 4)
         misfits = [row for row in rows if not iteration.results[row].compatible]
-        why = _causes(searcher, theirs, iteration.predictor, {row: found[row] for row in misfits}, stages)
+        why = _causes(searcher, surfaces, iteration.predictor, {row: found[row] for row in misfits}, stages)
         explained = {}
         for row, reference, difference in zip(rows, shapes, differences, strict=True):
             name, its = theirs.names[row], why.get(row) or _Why(found[row], found[row], difference)
@@ -138,7 +139,7 @@ class _Why:
 
 def _causes(
     searcher: Searcher,
-    references: Collection,
+    surfaces: Mapping[int, Surface],
     predictor: Predictor | None,
     found: Mapping[int, Found],
     stages: Stages,
@@ -147,11 +148,12 @@ def _causes(
     if not rows:
         return {}
     before = list(found.values())
-    shapes = [references.references[row].shape for row in rows]
+    shapes = [searcher.judge.references.references[row].shape for row in rows]
+    theirs = [surfaces[row] for row in rows]
     inferred = _inferred(searcher.space, predictor, shapes, before)
     inside = searcher.longer(rows, inferred, before)
     stages.step(1, 4)
-    overlays = dict(zip(rows, _overlays(shapes, inside, settings.workers), strict=True))
+    overlays = dict(zip(rows, _overlays(theirs, inside, settings.workers), strict=True))
     laid = searcher.laid(rows, inferred, inside, overlays)
     stages.step(2, 4)
     outside = dict(zip(rows, inside, strict=True))
@@ -160,7 +162,7 @@ def _causes(
     stages.step(3, 4)
     alone = isolation(searcher.judge.descriptors, settings.align, settings.workers, settings.seed)
     strange = outliers(alone)
-    differences = _residuals(shapes, [best.mesh for best in laid], settings.workers)
+    differences = _residuals(theirs, [best.mesh for best in laid], settings.workers)
     told = {}
     for i, row in enumerate(rows):
         evidence = Evidence(
@@ -178,12 +180,12 @@ def _causes(
     return told
 
 
-def _overlays(references: Sequence[Mesh], known: Sequence[Found], threads: int | None) -> list[Overlay]:
+def _overlays(references: Sequence[Surface], known: Sequence[Found], threads: int | None) -> list[Overlay]:
     """Overlays that try the fit of what is known besides the middle."""
 
-    def overlay(pair: tuple[Mesh, Found]) -> Overlay:
-        reference, replica = Surface.of(pair[0].normalised()), Surface.of(pair[1].mesh.normalised())
-        return Overlay(reference, [place(reference, replica)[0]])
+    def overlay(pair: tuple[Surface, Found]) -> Overlay:
+        reference, found = pair
+        return Overlay(reference, [place(reference, Surface.roughly(found.mesh.normalised()))[0]])
 
     return in_threads(overlay, list(zip(references, known, strict=True)), threads)
 
@@ -222,7 +224,7 @@ def _inferred(
     return columns
 
 
-def _residuals(references: Sequence[Mesh], replicas: Sequence[Mesh], threads: int | None) -> list[Residuals]:
+def _residuals(references: Iterable[Surface], replicas: Sequence[Mesh], threads: int | None) -> list[Residuals]:
     pairs = list(zip(references, replicas, strict=True))
     return in_threads(lambda pair: residuals(*pair), pairs, threads)
 
@@ -233,9 +235,15 @@ def _record(explained: Explained) -> dict[str, Any]:
     centre = (np.array(placed.centre) - own.centre) * own.scale
     return {
         "causes": [{"kind": c.kind, "text": c.text, "evidence": dict(c.evidence)} for c in explained.causes],
-        "regions": [_region(region) for region in explained.residuals],
+        "regions": [_region(region) for region in _told(explained)],
         "placement": {"centre": _rounded(centre), "scale": round(scale, 5)},
     }
+
+
+def _told(explained: Explained) -> list[Region]:
+    """What of the reference no parameters explain, and what of the replica found is too much; the weightiest first."""
+    regions = [*explained.misfit.of("unexplained"), *explained.residuals.of("surplus")]
+    return sorted(regions, key=lambda region: -region.weight)
 
 
 def _region(region: Region) -> dict[str, Any]:

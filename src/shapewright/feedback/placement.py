@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from shapewright.feedback.surface import Surface
 from shapewright.shapes import Floats, Mesh, Transform
@@ -15,7 +14,7 @@ from shapewright.shapes import Floats, Mesh, Transform
 FURTHEST = 0.05
 """Distances beyond count as this: what has no counterpart must not pull."""
 _POINTS = 160
-_CLOSE = 0.008  # mean distance at which no other place is tried
+_CLOSE = 0.006  # mean distance at which no other place is tried
 _BETTER = 0.85  # what another place must reach of the cost in the middle
 _SAME = 0.01
 _SCALES = (0.4, 2.5)
@@ -49,25 +48,18 @@ def place(reference: Surface, replica: Surface) -> tuple[Fit, Transform]:
 
     Tried are, per axis, equal extents, and lower sides, middles and upper sides that coincide.
     """
-    theirs, ours = _thinned(reference), _thinned(replica)
     bounds, own = _bounds(reference), _bounds(replica)
+    theirs, ours = _thinned(reference), _thinned(replica)
     best = MIDDLE
-    least = apart(reference.tree, replica.tree, theirs, ours, best.transform(bounds, own))
+    least = _apart(reference, replica, theirs, ours, best.transform(bounds, own))
     if least < _CLOSE:
         return best, best.transform(bounds, own)
     least *= _BETTER
     for fit in _different(bounds, own):
-        cost = apart(reference.tree, replica.tree, theirs, ours, fit.transform(bounds, own))
+        cost = _apart(reference, replica, theirs, ours, fit.transform(bounds, own))
         if cost < least:
             best, least = fit, cost
     return best, best.transform(bounds, own)
-
-
-def apart(reference: cKDTree, replica: cKDTree, theirs: Floats, ours: Floats, transform: Transform) -> float:
-    """Mean of the distances there and back of points of two surfaces, none of them beyond FURTHEST."""
-    there, _ = replica.query(transform.invert(theirs), distance_upper_bound=FURTHEST / transform.scale)
-    back, _ = reference.query(transform.apply(ours), distance_upper_bound=FURTHEST)
-    return float(np.minimum(there * transform.scale, FURTHEST).mean() + np.minimum(back, FURTHEST).mean()) / 2.0
 
 
 class Overlay:
@@ -89,12 +81,16 @@ class Overlay:
             return np.inf
         own = _bounds(surface)
         transforms = [fit.transform(self._bounds, own) for fit in self._fits]
-        return min(self._apart(surface, t) for t in transforms if _SCALES[0] < t.scale < _SCALES[1])
+        few = surface.points[::4]
+        allowed = [t for t in transforms if _SCALES[0] < t.scale < _SCALES[1]]
+        return min(_apart(self._reference, surface, self._points, few, t) for t in allowed)
 
-    def _apart(self, surface: Surface, transform: Transform) -> float:
-        there = transform.scale * surface.distance(transform.invert(self._points))
-        back = self._reference.distance(transform.apply(surface.points[::4]))
-        return float(np.minimum(there, FURTHEST).mean() + np.minimum(back, FURTHEST).mean()) / 2.0
+
+def _apart(reference: Surface, replica: Surface, theirs: Floats, ours: Floats, transform: Transform) -> float:
+    """Mean of the distances there and back of points of two surfaces, none of them beyond FURTHEST."""
+    there = transform.scale * replica.distance(transform.invert(theirs))
+    back = reference.distance(transform.apply(ours))
+    return float(np.minimum(there, FURTHEST).mean() + np.minimum(back, FURTHEST).mean()) / 2.0
 
 
 def _different(theirs: Floats, ours: Floats) -> Iterator[Fit]:

@@ -18,7 +18,7 @@ from shapewright.feedback.surface import SAMPLES, Surface
 from shapewright.shapes import Floats, Ints, Mesh, Transform
 
 Side = Literal["unexplained", "surplus"]
-FAR, NEAR = 0.035, 0.015
+FAR, NEAR = 0.04, 0.02
 """A region holds a point further than FAR from the other surface, and all points around it further than NEAR."""
 LEAST = 0.004
 """Share of the visible surface below which a region is not worth telling."""
@@ -90,15 +90,15 @@ class Residuals:
         return sum(region.share for region in self.of("surplus"))
 
 
-def residuals(reference: Mesh, replica: Mesh, samples: int = SAMPLES, seed: int = 0) -> Residuals:
+def residuals(reference: Mesh | Surface, replica: Mesh, samples: int = SAMPLES, seed: int = 0) -> Residuals:
     """Compare the surfaces of a reference and its replica, of which only what can be seen from outside is judged.
 
     The replica is first laid over the reference: both are upright, but a missing part moves the bounding box, so
-    besides the two boxes' middles their sides are tried. samples: points on each surface. Raises ValueError for a mesh
-    without area.
+    besides the two boxes' middles their sides are tried. reference: the mesh, or the surface of the normalised mesh
+    where that is known. samples: points on each surface. Raises ValueError for a mesh without area.
     """
-    theirs, ours = reference.normalised(), replica.normalised()
-    of_reference, of_replica = Surface.of(theirs, samples, seed), Surface.of(ours, samples, seed)
+    of_reference = Surface.of(reference.normalised(), samples, seed) if isinstance(reference, Mesh) else reference
+    of_replica = Surface.of(replica.normalised(), samples, seed)
     fit, shift = place(of_reference, of_replica)
     of_replica = of_replica.moved(shift)
     to_replica, to_reference = of_replica.distance(of_reference.points), of_reference.distance(of_replica.points)

@@ -26,7 +26,7 @@ FIRST = Budget(((12, 1), (4, 4), (2, 8), *((1, 8),) * 5))
 LONGER = Budget(((16, 1), (6, 4), (3, 8), (2, 12), *((1, 12),) * 16))
 LAID = Budget(((6, 2), (3, 6), (2, 8), *((1, 8),) * 5))
 WIDE = Budget(((3, 2), (2, 6), *((1, 8),) * 6))
-EVALUATIONS = 24_000
+EVALUATIONS = 12_000
 """Shapes built for all references together, about: few misfits are searched for longer than many."""
 _ENOUGH = 0.9  # of the threshold: in the pose they share, distances are upper bounds of what is judged
 _PROMISING = 1.4  # of the threshold

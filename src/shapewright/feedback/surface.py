@@ -84,7 +84,7 @@ class Surface:
         )
 
     @classmethod
-    def roughly(cls, mesh: Mesh, count: int, seed: int = 0) -> Surface:
+    def roughly(cls, mesh: Mesh, count: int = 1000, seed: int = 0) -> Surface:
         """``count`` points of the whole surface, all taken to be visible, as they are where nothing lies inside."""
         drawn = sample(mesh, count, seed)
         return cls(drawn.points, drawn.normals, drawn.faces, np.ones(count, dtype=bool), drawn.area)
@@ -124,15 +124,23 @@ def _seen(samples: Samples, views: Floats) -> NDArray[np.bool_]:
     """Whether a view shows the point: nothing there is nearer to the camera by more than a pixel's slant."""
     seen = np.zeros(len(samples.points), dtype=bool)
     for camera, inverse in zip(_CAMERAS, views, strict=True):
-        frame = camera[:9].reshape(3, 3)
-        right, up, towards = frame @ samples.points.T
-        away = camera[9] - towards
-        scale = camera[10] / away * _SIZE / 2.0
-        column = np.clip((_SIZE / 2.0 + scale * right).astype(int), 0, _SIZE - 1)
-        row = np.clip((_SIZE / 2.0 - scale * up).astype(int), 0, _SIZE - 1)
-        towards_camera = camera[9] * frame[2] - samples.points
-        cosine = np.abs((samples.normals * towards_camera).sum(axis=1)) / np.linalg.norm(towards_camera, axis=1)
-        slant = np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) / np.maximum(cosine, _STEEPEST)
-        front = np.divide(1.0, inverse[row, column], out=np.full(len(away), np.inf), where=inverse[row, column] > 0.0)
-        seen |= (cosine > _STEEPEST) & (away - front < (0.25 + slant) / scale)
+        rows = np.flatnonzero(~seen)
+        if not len(rows):
+            break
+        seen[rows] = _shown(samples.points[rows], samples.normals[rows], camera, inverse)
     return seen
+
+
+def _shown(points: Floats, normals: Floats, camera: Floats, inverse: Floats) -> NDArray[np.bool_]:
+    frame = camera[:9].reshape(3, 3)
+    right, up, towards = frame @ points.T
+    away = camera[9] - towards
+    scale = camera[10] / away * _SIZE / 2.0
+    column = np.clip((_SIZE / 2.0 + scale * right).astype(int), 0, _SIZE - 1)
+    row = np.clip((_SIZE / 2.0 - scale * up).astype(int), 0, _SIZE - 1)
+    towards_camera = camera[9] * frame[2] - points
+    cosine = np.abs((normals * towards_camera).sum(axis=1)) / np.linalg.norm(towards_camera, axis=1)
+    slant = np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) / np.maximum(cosine, _STEEPEST)
+    there = inverse[row, column]
+    front = np.divide(1.0, there, out=np.full(len(away), np.inf), where=there > 0.0)
+    return np.asarray((cosine > _STEEPEST) & (away - front < (0.25 + slant) / scale))
