@@ -24,11 +24,13 @@ import numpy as np
 import shapewright as sw
 from shapewright.building import Workers
 from shapewright.feedback.explanation import Explained, explain
+from shapewright.feedback.placement import Overlay, place
 from shapewright.feedback.residuals import residuals
 from shapewright.feedback.search import Found, Searcher
 from shapewright.feedback.suggestions import Suggestion, suggest
+from shapewright.feedback.surface import Surface
 from shapewright.judge import Judge
-from shapewright.prediction.lookup import nearest
+from shapewright.prediction.lookup import nearest as most_similar
 from shapewright.rendering.cameras import THREE_VIEWS
 from shapewright.rendering.raster import render
 
@@ -70,26 +72,32 @@ def then(*edits: Edit) -> Edit:
     return edit
 
 
-V5 = "tables/v5.py"
+FIVE, TABLE, CHAIR = "tables/v5.py", "table/v3.py", "chair/v3.py"
 RULES: dict[str, tuple[str, Edit]] = {
-    "round tops": (V5, then(without("    round_top: bool = False,\n"), without("round_top", instead="False"))),
-    "stretchers": (V5, without(', "support"')),
-    "pedestal and foot": (V5, without(', "pedestal"')),
-    "trestles": (V5, without(', "split"')),
-    "height, upper half": (V5, limited("height", 0.5, 0.7)),
-    "breadth, lower half": (V5, limited("breadth", 0.7, 1.0)),
+    "stretchers": (FIVE, without(', "support"')),
+    "pedestal and foot": (FIVE, without(', "pedestal"')),
+    "trestles": (FIVE, without(', "split"')),
+    "breadth, lower half": (FIVE, limited("breadth", 0.7, 1.0)),
+    "table: columns": (TABLE, without('"column", ')),
+    "table: star feet": (TABLE, without(', "star"')),
+    "table: panels": (TABLE, without('"panels", ')),
+    "table: low heights": (TABLE, limited("height", 0.7, 1.6)),
+    "chair: plinths": (CHAIR, without(', "plinth"')),
+    "chair: star feet": (CHAIR, without('"star", ')),
+    "chair: pedestals": (CHAIR, without('"pedestal", ')),
+    "chair: solid arms": (CHAIR, without(', "solid"')),
 }
 
 
-def reduced(example: str, edit: Edit, folder: Path) -> sw.procedure:
-    source = (EXAMPLES / example).read_text(encoding="utf-8")
-    path = folder / Path(example).name
+def reduced(example: Path, edit: Edit, folder: Path):
+    source = example.read_text(encoding="utf-8")
+    path = folder / example.name
     path.write_text(edit(source), encoding="utf-8")
     return sw.load_procedure(path)
 
 
-def collection(example: str, count: int, seed: int) -> sw.Collection:
-    full = sw.load_procedure(EXAMPLES / example)
+def collection(example: Path, count: int, seed: int) -> sw.Collection:
+    full = sw.load_procedure(example)
     with Workers(full, 1) as crew:
         builds = crew.build(full.space.sample(2 * count, seed + 1000))
     shapes = [build.shape for build in builds if isinstance(build.shape, sw.Mesh)]
@@ -97,18 +105,27 @@ def collection(example: str, count: int, seed: int) -> sw.Collection:
 
 
 def searched(procedure, references, crew, judge, settings) -> list[Explained]:
-    """Every reference with the nearest shape that a search from the most similar sample finds."""
+    """The references that a search from the most similar sample does not replicate, with the nearest shapes."""
     builds = [b for b in crew.build(procedure.space.sample(SAMPLES, settings.seed)) if isinstance(b.shape, sw.Mesh)]
     pictures = render([b.shape for b in builds], THREE_VIEWS, 64, threads=settings.workers)
     theirs = render([reference.shape for reference in references], THREE_VIEWS, 64, threads=settings.workers)
     rows = list(range(len(references)))
-    starts = [builds[i].parameters for i in nearest(theirs, pictures)]
+    starts = [builds[i].parameters for i in most_similar(theirs, pictures)]
     searcher = Searcher(procedure.space, crew, judge, settings.seed)
     known = [
         f or Found(p, builds[0].shape, np.inf) for f, p in zip(searcher.measured(rows, starts), starts, strict=True)
     ]
-    best = searcher.longer(rows, doubtful(procedure.space, starts), known)
-    return [explained(reference, row, best[row], settings) for row, reference in enumerate(references)]
+    inferred = doubtful(procedure.space, starts)
+    best = searcher.longer(rows, inferred, known)
+    lost = [row for row in rows if best[row].distance > settings.threshold]
+    overlays = {row: overlay(references.references[row].shape, best[row].mesh) for row in lost}
+    laid = searcher.laid(lost, [column[lost] for column in inferred], [best[row] for row in lost], overlays)
+    return [lost_one(references.references[row], row, best[row], like) for row, like in zip(lost, laid, strict=True)]
+
+
+def overlay(reference: sw.Mesh, replica: sw.Mesh) -> Overlay:
+    theirs, ours = Surface.of(reference.normalised()), Surface.of(replica.normalised())
+    return Overlay(theirs, [place(theirs, ours)[0]])
 
 
 def doubtful(space, starts) -> list[np.ndarray]:
@@ -124,10 +141,9 @@ def doubtful(space, starts) -> list[np.ndarray]:
     return columns
 
 
-def explained(reference, row: int, best: Found, settings) -> Explained:
-    compatible = best.distance <= settings.threshold
-    found = residuals(reference.shape, best.mesh, samples=100 if compatible else 4000)
-    return Explained(reference.name, row, reference.shape, compatible, best, found, best, best, found)
+def lost_one(reference, row: int, nearest: Found, like: Found) -> Explained:
+    misfit = residuals(reference.shape, like.mesh)
+    return Explained(reference.name, row, reference.shape, False, nearest, misfit, nearest, like, misfit)
 
 
 def rules(arguments: argparse.Namespace) -> None:
@@ -137,13 +153,13 @@ def rules(arguments: argparse.Namespace) -> None:
     for name, (example, edit) in RULES.items():
         if arguments.only and arguments.only not in name:
             continue
-        references = collection(example, arguments.count, arguments.seed)
+        full = arguments.examples / example
+        references = collection(full, arguments.count, arguments.seed)
         with tempfile.TemporaryDirectory() as folder:
-            procedure = reduced(example, edit, Path(folder))
+            procedure = reduced(full, edit, Path(folder))
             judge = Judge.of(references, settings)
             with Workers(procedure, settings.workers) as crew:
-                found = searched(procedure, references, crew, judge, settings)
-                lost = [each for each in found if not each.compatible]
+                lost = searched(procedure, references, crew, judge, settings)
                 started = time.perf_counter()
                 made = suggest(procedure, lost, crew, judge, limit=5)
                 seconds = time.perf_counter() - started
@@ -212,6 +228,7 @@ def main() -> None:
     one = commands.add_parser("rules")
     one.add_argument("--only")
     one.add_argument("--count", type=int, default=40)
+    one.add_argument("--examples", type=Path, default=EXAMPLES)
     one.set_defaults(run=rules)
     two = commands.add_parser("steps")
     two.add_argument("procedure", type=Path)

@@ -219,7 +219,9 @@ def _with_pieces(
     common = [key for key, count in counts.most_common(5) if count >= max(1, _SHARED * len(pairs))]
     chosen_sets = [tuple(common[:k]) for k in range(1, min(_MOST_PIECES, len(common)) + 1)]
     chosen_sets += [(key,) for key in common[1:]]
-    for chosen in dict.fromkeys(chosen_sets):
+    wholes = Counter(tuple(dict.fromkeys(_form(piece) for piece in h.pieces)) for _, h in pairs)
+    chosen_sets += [whole for whole, _ in wholes.most_common(3) if len(whole) <= _MOST_PIECES + 1]
+    for chosen in {frozenset(chosen): chosen for chosen in reversed(chosen_sets)}.values():
         members = [(m, h) for m, h in pairs if set(chosen) <= {_form(piece) for piece in h.pieces}]
         if not members:
             continue

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from shapewright.building import Workers
 from shapewright.feedback.cards import Example, card
@@ -182,7 +184,7 @@ def _confirmed(
         with changed(idea.write(idea.ranges), procedure, judge) as new:
             trial = tried(new, starts, judge, [LOOK, SEARCH], judge.settings.seed)
         made = {row: trial.parameters[row] for row in trial.compatible}
-        if not made:
+        if not made or _falls_apart(trial, {m.row: m.replica for m in some}):
             continue
         ranges = narrowed(idea, procedure.space, list(made.values()))
         source = idea.write(ranges)
@@ -197,9 +199,29 @@ def _confirmed(
     return found
 
 
+def _falls_apart(trial: Trial, before: Mapping[int, Mesh]) -> bool:
+    """Whether most of the new compatible replicas are in more pieces than those before: nothing may float."""
+    more = [_components(trial.replicas[row]) > _components(before[row]) for row in trial.compatible]
+    return float(np.mean(more)) > 0.5
+
+
+def _components(mesh: Mesh) -> int:
+    """Connected pieces, by vertices that coincide."""
+    _, index = np.unique(np.round(mesh.vertices / mesh.extent.max(), 6), axis=0, return_inverse=True)
+    faces = index.reshape(-1)[mesh.faces]
+    links = coo_matrix((np.ones(2 * len(faces)), (faces[:, :2].ravel(), faces[:, 1:].ravel())), shape=(index.size,) * 2)
+    _, component = connected_components(links, directed=False)
+    return len(np.unique(component[faces[:, 0]]))
+
+
+def _value(trial: Trial) -> float:
+    """The references that become compatible; a close replica counts half as much again as one at the threshold."""
+    return sum(1.5 - 0.5 * trial.distances[row] / trial.threshold for row in trial.compatible)
+
+
 def _shown(found: Sequence[_Tried], limit: int) -> list[_Tried]:
     """Largest gain first, simpler first on a tie; none that only repeats part of what one before it does."""
-    order = sorted(found, key=lambda each: (-len(each.trial.compatible), len(each.ranges)))
+    order = sorted(found, key=lambda each: (-_value(each.trial), len(each.ranges)))
     shown: list[_Tried] = []
     for each in order:
         repeats = any(

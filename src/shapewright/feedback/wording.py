@@ -22,6 +22,7 @@ _NEW = "new "
 """Before the names of the rule's own pieces among the frames."""
 Frames = Mapping[str, Floats]
 
+_LINE = 116  # characters, indented by four
 _TOUCHING = 0.5
 _AGREE = 0.5  # share of the misfits that have to agree
 _FLUSH, _TOUCH = 0.045, 0.07  # of the whole's largest extent: how near sides are that are one, or touch
@@ -152,7 +153,10 @@ def addition(
     verb = "replace" if removed else "add"
     name = free(f"{verb}_{_plain(removed[0])}" if removed else f"{verb}_{stem}")
     arguments = ", ".join(["shape", *(q.name for q in quantities)])
-    text = "\n    ".join([f"def {name}({arguments}):", f'"""{note}"""', *body])
+    head = f"def {name}({arguments}):"
+    if len(head) > _LINE + 4:
+        head = f"def {name}(\n    {arguments}\n):"
+    text = "\n    ".join([head, f'"""{note}"""', *body])
     call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
     return Rule(name, stem, text, call, tuple(quantities), tuple(dict.fromkeys(imports)))
 
@@ -300,26 +304,26 @@ def _piece_lines(
             where |= {"on": f"{end} + {half}", "under": f"{start} - {half}"}
             centres.append(where[place])
     size, at = f"({', '.join(sizes)})", f"({', '.join(centres)})"
+    gap, count = "", ""
     if kind.startswith("slats"):
-        axis = "xyz".index(kind[-1])
-        count = Quantity(f"{name}_count", tuple(float(piece.count) for piece in several), whole=True)
-        asked.append(count)
-        gap = f"{number(float(np.median([piece.gap for piece in several])))} * ({sizes[axis]})"
+        asked.append(Quantity(f"{name}_count", tuple(float(piece.count) for piece in several), whole=True))
+        count = asked[-1].name
         # The gaps shrink with the count, so that any number of slats fits.
-        least = max(2, int(min(count.values)))
-        call = f'slats({size}, {count.name}, {gap} * {least} / {count.name}, "{kind[-1]}", {at})'
-    else:
-        turned = f"({sizes[1]}, {sizes[0]}, {sizes[2]})" if kind == "rod x" else f"({sizes[0]}, {sizes[2]}, {sizes[1]})"
-        call = _CALLS[kind].format(size=size, at=at, turned=turned)
-    line = f"{name} = {call}"
-    for axis_name, on, axis in (("x", mirrored[0], 0), ("z", mirrored[1], 2)):
+        part = float(np.median([piece.gap * piece.count for piece in several]))
+        gap = f"{number(part)} * ({sizes['xyz'.index(kind[-1])]}) / {count}"
+    middles = [f"({low} + {high}) / 2" for low, high in zip(*_CORNERS, strict=True)]
+    copies = ""
+    for letter, on, axis in (("x", mirrored[0], 0), ("z", mirrored[1], 2)):
         if on:
-            box = [each[frame][:, axis] for each in frames]
-            about = all(abs(b.sum()) < 2e-3 * np.ptp(b) + 1e-9 for b in box)
-            middle = f"({_CORNERS[0][axis]} + {_CORNERS[1][axis]}) / 2"
-            place = "" if about else f", about=({middle}, 0, 0)" if axis == 0 else f", about=(0, 0, {middle})"
-            line += f'.mirror("{axis_name}", keep=True{place})'
-    lines.append(f"{line}.label({_quoted(label)})")
+            even = all(abs(each[frame][:, axis].sum()) < 2e-3 * np.ptp(each[frame][:, axis]) + 1e-9 for each in frames)
+            about = f"({middles[0]}, 0, 0)" if axis == 0 else f"(0, 0, {middles[2]})"
+            copies += f'.mirror("{letter}", keep=True{"" if even else f", about={about}"})'
+    line = f"{name} = {_call(kind, size, sizes, at, gap, count)}{copies}.label({_quoted(label)})"
+    if len(line) > _LINE:
+        lines.append(f"at = {at}")
+        line = f"{name} = {_call(kind, size, sizes, 'at', gap, count)}{copies}.label({_quoted(label)})"
+    lines.append(line)
+    used = _call(kind, size, sizes, at, gap, count).split("(")[0]
     # Corners that nothing needs, or that are there already, are not asked of the frame.
     anew = [axis for axis in range(3) if along[axis].ends]
     text = "\n".join(lines)
@@ -335,7 +339,14 @@ def _piece_lines(
     if len(wanted) == 3:
         corners = ", ".join(f"({', '.join(words)})" for words in _CORNERS)
         first = [f"{corners} = {_bounds(frame)}"]
-    return [*first, *lines], asked, call.split("(")[0]
+    return [*first, *lines], asked, used
+
+
+def _call(kind: Kind, size: str, sizes: Sequence[str], at: str, gap: str, count: str) -> str:
+    if kind.startswith("slats"):
+        return f'slats({size}, {count}, {gap}, "{kind[-1]}", {at})'
+    turned = f"({sizes[1]}, {sizes[0]}, {sizes[2]})" if kind == "rod x" else f"({sizes[0]}, {sizes[2]}, {sizes[1]})"
+    return _CALLS[kind].format(size=size, at=at, turned=turned)
 
 
 def _bounds(frame: str) -> str:
