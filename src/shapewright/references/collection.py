@@ -71,11 +71,15 @@ class Collection:
     They are all meshes, or all drawings; CollectionError is raised for a mixture.
 
     skipped: the files that could not be read, with the reason. source: where the collection came from, in words.
+    origins: absolute paths or patterns to load it from again, none for one made in memory; up, front: their axes.
     """
 
     references: tuple[Reference, ...]
     skipped: Mapping[Path, str] = field(default_factory=dict)
     source: str = "memory"
+    origins: tuple[str, ...] = ()
+    up: str = "y"
+    front: str | None = None
 
     def __post_init__(self) -> None:
         drawings = [reference.name for reference in self if isinstance(reference.shape, Drawing)]
@@ -114,7 +118,8 @@ class Collection:
         if not references:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
-        return cls(tuple(references), skipped, os.fspath(origins[0]) + more)
+        again = tuple(str(Path(origin).expanduser().absolute()) for origin in origins)
+        return cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front)
 
     @classmethod
     def of(cls, shapes: Mapping[str, Any], *, up: str = "y", front: str | None = None) -> Collection:
