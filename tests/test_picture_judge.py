@@ -44,7 +44,7 @@ def test_residuals_and_overlaps_are_of_areas(judge):
     same, other, mesh = judge.search_residuals([(3, table()), (3, table(0.1)), (3, block(1).mesh())])
     assert mesh is None and not same.any()
     pixels = np.abs(other).sum() / UNIT * (2 * HALF / SMALL) ** 2
-    assert pixels == pytest.approx(2 * 0.02 * 0.64, rel=0.02)
+    assert pixels == pytest.approx(2 * 0.02 * 0.64, rel=0.06)
     iou, surface = judge.overlaps(builds(table(height=0.4), table(), None, table(0.1)))
     assert (
         iou[0] == pytest.approx(1)
