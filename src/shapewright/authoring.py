@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.comparison.grouping import Group
+from shapewright.facing import quarter_turns
 from shapewright.iteration import Iteration, draw_pictures
 from shapewright.judge import Judge, judge_of
 from shapewright.learning import Lesson, learn, learn_more, limits_of
@@ -34,6 +35,7 @@ from shapewright.references import Collection
 from shapewright.rendering.raster import render
 from shapewright.results import Result, at_limit
 from shapewright.settings import Settings
+from shapewright.shapes import Mesh
 
 _NEAR = 0.5
 """Share of the threshold up to which parameters that were carried over are left as they are."""
@@ -66,6 +68,11 @@ def fit(
         watch = None if previous else partial(_first_answer, references, stages, settings)
         predictor = previous.predictor if previous else None
         lesson = learn(procedure, crew, settings, stages, predictor, watch, references.kind)
+        turns = [0] * len(references)
+        if settings.facing == "found" and references.kind is Mesh:
+            stages.begin("face", len(references))
+            turns = quarter_turns(references, lesson.predictor, crew)
+            references = references.turned(turns)
         stages.begin("describe", len(references))
         judge = judge_of(references, settings, cache)
         found = _Found.none(len(references))
@@ -102,6 +109,7 @@ def fit(
             "samples": predictor.samples,
             **lesson.facts,
             "first_answer": stages.first_answer,
+            "turned": {name: 90 * turn for name, turn in zip(references.names, turns, strict=True) if turn},
             "epochs": len(predictor.curve),
             "curve": [vars(epoch) for epoch in predictor.curve],
             "validation": predictor.metrics,

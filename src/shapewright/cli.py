@@ -96,6 +96,10 @@ def fit(
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
     ] = "free",
+    facing: Annotated[
+        Literal["given", "found"],
+        typer.Option(help="found turns each reference by the quarter turns about the up axis that fit best."),
+    ] = "given",
     up: Up = "y",
     front: Front = None,
     time_limit: Annotated[float, typer.Option(help="Seconds that building one shape may take.")] = 10.0,
@@ -118,6 +122,7 @@ def fit(
         threshold=threshold,
         fidelity=fidelity,
         align=align,
+        facing=facing,
         shape_seconds=time_limit,
         shape_memory_mb=memory_limit,
         workers=workers,
@@ -142,6 +147,10 @@ def evaluate(
     cameras: Cameras = None,
     views: Views = None,
     refine: Refine = None,
+    compare: Annotated[
+        Literal["cameras", "views", "both"] | None,
+        typer.Option(help="cameras: fixed against learned; views: 1, 2, 3 and 5 cameras; both: all combinations."),
+    ] = None,
     device: Device = "auto",
     workers: Workers = None,
     json: Json = False,
@@ -149,16 +158,24 @@ def evaluate(
     """Measure how well the parameters of a procedure are found, on samples that were held out."""
     from shapewright.console import print_json, print_trials, progress_bars
     from shapewright.evaluation import evaluate as run_trials
-    from shapewright.evaluation import summary
+    from shapewright.evaluation import summary, variants
 
     given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
     settings = Settings.preset(preset, **given, device=device, workers=workers)
-    with progress_bars(err) as listen:
-        trials = list(run_trials(load_procedure(procedure), [settings], range(seeds), listen))
+    author = load_procedure(procedure)
+    found = []
+    for variant in variants(settings, compare):
+        with progress_bars(err) as listen:
+            trials = list(run_trials(author, [variant], range(seeds), listen))
+        seconds = [trial.seconds for trial in trials]
+        record = {"cameras": variant.cameras, "views": variant.views, "parameters": summary(trials), "seconds": seconds}
+        found.append(record)
+        if not json:
+            if compare:
+                out.print(f"\n[bold]{variant.cameras} cameras, {variant.views}[/]", highlight=False)
+            print_trials(out, trials)
     if json:
-        print_json({"parameters": summary(trials), "seconds": [trial.seconds for trial in trials]})
-    else:
-        print_trials(out, trials)
+        print_json({"variants": found} if compare else found[0])
 
 
 @app.command()

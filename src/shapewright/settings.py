@@ -22,6 +22,9 @@ class Settings:
     warm_epochs: training of a network that goes on from an earlier one. rounds: of adaptive sampling, each with
     round_samples more samples around what was found for the references and warm_epochs more of training.
 
+    facing: "given" takes references as they are, "found" turns each about the up axis by the quarter turns at which the
+    procedure fits it best.
+
     refine: how long to search for better parameters from the predicted ones, by the judge's measure; refine_seconds:
     what building shapes for that may cost for each reference, on one core (ten times as much when thorough). Procedures
     that take less than 10 ms a shape never reach it.
@@ -54,6 +57,7 @@ class Settings:
     warm_epochs: int = 6
     rounds: int = 0
     round_samples: int = 1000
+    facing: Literal["given", "found"] = "given"
     refine: Literal["off", "quick", "thorough"] = "quick"
     refine_seconds: float = 2.0
     threshold: float = 0.18

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from shapewright.conversion import as_shape
 from shapewright.references import files, sources
 from shapewright.references.errors import CollectionError, UnreadableError
-from shapewright.references.orientation import Orientation
+from shapewright.references.orientation import QUARTER_TURNS, Orientation
 from shapewright.shapes import Drawing, Floats, Mesh, Shape, Transform, shape_digest
 
 _REASONS = 5
@@ -46,6 +46,22 @@ class Reference:
         """Points (..., 3), of a drawing (..., 2), in the frame of ``shape``, back in the file's own units and axes."""
         original = self.transform.invert(points)
         return self.orientation.invert(original) if isinstance(self.shape, Mesh) else original
+
+    def turned(self, quarters: int) -> Reference:
+        """The same shape after so many quarter turns about the up axis, from the front towards the right.
+
+        A drawing stays as it is.
+        """
+        if not isinstance(self.shape, Mesh):
+            return self
+        turn = QUARTER_TURNS[quarters % 4]
+        transform = Transform(tuple(turn @ self.transform.centre), self.transform.scale)
+        return replace(
+            self,
+            shape=self.shape.transformed(turn),
+            transform=transform,
+            orientation=self.orientation.turned(quarters),
+        )
 
     def __repr__(self) -> str:
         size = f"{len(self.shape.faces)} faces" if isinstance(self.shape, Mesh) else "drawing"
@@ -115,6 +131,10 @@ class Collection:
             raise CollectionError("no shapes given; a collection needs at least one")
         references = [_in_memory(name, shapes[name], orientation) for name in sorted(shapes, key=sources.natural_key)]
         return cls(tuple(references))
+
+    def turned(self, quarters: Sequence[int]) -> Collection:
+        """The collection with every reference turned about the up axis: see ``Reference.turned``."""
+        return replace(self, references=tuple(r.turned(q) if q else r for r, q in zip(self, quarters, strict=True)))
 
     @cached_property
     def _by_name(self) -> dict[str, Reference]:

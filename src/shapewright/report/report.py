@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+import math
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -117,6 +118,7 @@ def _contents(record: dict[str, Any], folder: Path) -> dict[str, Any]:
             for parameter in record["procedure"]["parameters"]
         },
         "curves": _curves(record["metrics"]["curve"]),
+        "cameras": _cameras(record["metrics"].get("cameras")),
         "data": {"parameters": [_parameter(p) for p in record["procedure"]["parameters"]], "pairs": _details(pairs)},
     }
 
@@ -217,6 +219,21 @@ def _curves(curve: list[dict[str, Any]]) -> dict[str, Any] | None:
 def _mean(numbers: list[float | None]) -> float | None:
     known = [number for number in numbers if number is not None]
     return sum(known) / len(known) if known else None
+
+
+def _cameras(places: dict[str, Any] | None) -> list[dict[str, Any]]:
+    """Where each camera stood before and after training: as seen from above, the front at the bottom, and in words."""
+    if not places or "after" not in places:
+        return []
+
+    def above(place: list[float]) -> tuple[float, float]:
+        azimuth, elevation, distance = math.radians(place[0]), math.radians(place[1]), place[2]
+        return distance * math.cos(elevation) * math.sin(azimuth), distance * math.cos(elevation) * math.cos(azimuth)
+
+    return [
+        {"from": above(before), "to": above(after), "before": before, "after": after, "moved": before != after}
+        for before, after in zip(places["before"], places["after"], strict=True)
+    ]
 
 
 def _date(text: str) -> str:
