@@ -301,17 +301,18 @@ def demo(
     out_dir: Annotated[Path, typer.Option("--out", help="Folder for the demo's references and runs.")] = Path(
         "demo-run"
     ),
+    drawings: Annotated[bool, typer.Option("--drawings", help="Fifty drawings of tables instead of meshes.")] = False,
     seed: Seed = 0,
     workers: Workers = None,
     json: Json = False,
 ) -> None:
     """Fit two versions of a table procedure to forty bundled tables, and report what the second one gained."""
     from shapewright.console import iteration_record, print_iteration, print_json
-    from shapewright.demo import collection as bundled
-    from shapewright.demo import procedures
+    from shapewright.demo import collection, procedures
+    from shapewright.demo import drawings as drawn
 
     references = out_dir / "references"
-    bundled.write(references)
+    (drawn if drawings else collection).write(references)
     loaded, folder = _load(str(references), "y", None), out_dir
     for version in ("v3", "v5"):
         folder = next_run(out_dir / "runs").absolute()
@@ -319,7 +320,7 @@ def demo(
         if not json:
             out.print(f"\n[bold]tables, {version}[/]", highlight=False)
         settings = Settings(seed=seed, workers=workers)
-        iteration, folder = _fit(load_procedure(procedures.path(version)), loaded, settings, folder)
+        iteration, folder = _fit(load_procedure(procedures.path(version, drawings)), loaded, settings, folder)
         if not json:
             print_iteration(out, iteration, folder)
     if json:

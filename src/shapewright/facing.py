@@ -34,9 +34,9 @@ def _costs(references: Collection, predictor: Predictor, crew: Workers) -> list[
 
     def cost(pair: tuple[Shape, Shape | None]) -> float:
         reference, replica = pair
-        if not (isinstance(reference, Mesh) and isinstance(replica, Mesh)):
-            return np.inf
-        return AlignedCost(reference)(replica)
+        if isinstance(reference, Mesh) and isinstance(replica, Mesh):
+            return AlignedCost(reference)(replica)
+        return np.inf
 
     pairs = [(shape, build.shape) for shape, build in zip(shapes, builds, strict=True)]
     return in_threads(cost, pairs, crew.count)

@@ -201,5 +201,5 @@ def _schedule(settings: Settings, previous: Predictor | None) -> Schedule:
 
 
 def _places(cameras: Sequence[Camera]) -> list[list[float]]:
-    """Azimuth and elevation in degrees, and distance, of every camera."""
-    return [[camera.azimuth, camera.elevation, camera.distance] for camera in cameras]
+    """Azimuth and elevation in degrees, and distance, of every camera that can be moved."""
+    return [[camera.azimuth, camera.elevation, camera.distance] for camera in cameras if camera != PAGE]

@@ -48,8 +48,12 @@ class Reference:
         return self.orientation.invert(original) if isinstance(self.shape, Mesh) else original
 
     def turned(self, quarters: int) -> Reference:
-        """The same mesh after so many quarter turns about the up axis, from the front towards the right."""
-        assert isinstance(self.shape, Mesh)
+        """The same shape after so many quarter turns about the up axis, from the front towards the right.
+
+        A drawing stays as it is.
+        """
+        if not isinstance(self.shape, Mesh):
+            return self
         turn = QUARTER_TURNS[quarters % 4]
         transform = Transform(tuple(turn @ self.transform.centre), self.transform.scale)
         return replace(

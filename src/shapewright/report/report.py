@@ -229,6 +229,11 @@ def _curves(curve: list[dict[str, Any]]) -> dict[str, Any] | None:
     }
 
 
+def _mean(numbers: list[float | None]) -> float | None:
+    known = [number for number in numbers if number is not None]
+    return sum(known) / len(known) if known else None
+
+
 def _cameras(places: dict[str, Any] | None) -> list[dict[str, Any]]:
     """Where each camera stood before and after training: as seen from above, the front at the bottom, and in words."""
     if not places or "after" not in places:
@@ -242,11 +247,6 @@ def _cameras(places: dict[str, Any] | None) -> list[dict[str, Any]]:
         {"from": above(before), "to": above(after), "before": before, "after": after, "moved": before != after}
         for before, after in zip(places["before"], places["after"], strict=True)
     ]
-
-
-def _mean(numbers: list[float | None]) -> float | None:
-    known = [number for number in numbers if number is not None]
-    return sum(known) / len(known) if known else None
 
 
 def _date(text: str) -> str:
