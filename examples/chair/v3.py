@@ -36,7 +36,7 @@ def four_legs(box, leg, splay):
     for corner in box.corners(leg):
         yield corner.path((0, 0, 0), (out, 0, out), axis="-y").label("leg")
     margin = 0.15 * leg - out / 2
-    yield box.inset(x=margin, z=margin).sub((None, 0.7 * leg, None)).tag("stretchers")
+    yield box.inset(x=margin, z=margin).sub((None, min(0.7 * leg, box.height / 2), None)).tag("stretchers")
 
 
 @grammar.rule("base", when=lambda p: p.base == "sled")
@@ -44,7 +44,7 @@ def sled(box, leg):
     for corner in box.corners(leg):
         yield corner.label("leg")
     for side in box.ends("x", leg):
-        yield side.sub((None, leg, None), anchor=(0.5, 0, 0.5)).label("runner")
+        yield side.sub((None, min(leg, box.height / 2), None), anchor=(0.5, 0, 0.5)).label("runner")
 
 
 @grammar.rule("base", when=lambda p: p.base == "pedestal")
