@@ -117,7 +117,7 @@ def no_arms(box):
 @grammar.rule("arms", when=lambda p: p.arms == "open")
 def open_arms(box, leg, arm_height):
     for side in box.ends("x", leg):
-        below, arm, _ = side.split("y", arm_height * box.height, 0.6 * leg, ...)
+        below, arm, _ = side.split("y", arm_height * box.height, min(0.6 * leg, 0.15 * box.height), ...)
         yield arm.label("arm")
         yield below.sub((None, None, leg), anchor=(0.5, 0.5, 1)).label("arm post")
 
