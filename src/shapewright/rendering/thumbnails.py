@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 from PIL import Image
 
-from shapewright.rendering.cameras import THUMBNAIL, pack
+from shapewright.rendering.cameras import THUMBNAIL, Camera, pack
 from shapewright.rendering.raster import AMBIENT, draw_view
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
@@ -27,19 +27,19 @@ _DARKEST, _INK = 0.42, 0.4
 _GREYS = 32
 
 
-def thumbnail(mesh: Mesh, size: int = 256) -> bytes:
+def thumbnail(mesh: Mesh, size: int = 256, camera: Camera = THUMBNAIL) -> bytes:
     """A picture of a mesh as PNG bytes: grey and alpha, size x size pixels, seen from the right and a little above.
 
     The mesh is normalised first, so that the whole of it is in the picture whatever its size and place.
     Raises ValueError for a mesh without faces or of no size.
     """
     normalised = mesh.normalised()
-    camera = pack([THUMBNAIL])[0]
+    packed = pack([camera])[0]
     side = size * SUPERSAMPLE
     shade, inverse_depth = np.empty((2, side, side), dtype=np.float32)
-    draw_view(normalised.vertices, normalised.faces, camera, np.empty_like(normalised.vertices), shade, inverse_depth)
+    draw_view(normalised.vertices, normalised.faces, packed, np.empty_like(normalised.vertices), shade, inverse_depth)
     picture = np.empty((size, size, 2), dtype=np.uint8)
-    _ink(shade, inverse_depth, 2.0 / (side * camera[10]), picture)
+    _ink(shade, inverse_depth, 2.0 / (side * packed[10]), picture)
     buffer = io.BytesIO()
     Image.fromarray(picture).save(buffer, "PNG")
     return buffer.getvalue()

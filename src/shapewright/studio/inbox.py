@@ -1,0 +1,48 @@
+"""Requests that wait for the bench, the most urgent first."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import Any
+
+Request = dict[str, Any]
+
+
+class Inbox:
+    """Filled by one thread, emptied by another.
+
+    Of evaluations only each client's newest counts; they come before fetches, all other requests before them. A new
+    procedure sets ``interrupt``, so that nobody waits for a shape of the old one.
+    """
+
+    def __init__(self, interrupt: threading.Event) -> None:
+        self._interrupt = interrupt
+        self._arrived = threading.Condition()
+        self._live: dict[int, Request] = {}
+        self._others: deque[Request] = deque()
+
+    def put(self, request: Request) -> None:
+        with self._arrived:
+            if request["do"] == "evaluate":
+                self._live.pop(request["client"], None)
+                self._live[request["client"]] = request
+            else:
+                self._others.append(request)
+            if request["do"] in ("load", "end"):
+                self._interrupt.set()
+            self._arrived.notify()
+
+    @property
+    def waiting(self) -> bool:
+        """Whether there is a request."""
+        return bool(self._live or self._others)
+
+    def take(self, wait: bool) -> Request | None:
+        """The next request; without one wait for it, or return None."""
+        with self._arrived:
+            while wait and not self.waiting:
+                self._arrived.wait()
+            if self._live and (not self._others or self._others[0]["do"] == "fetch"):
+                return self._live.pop(next(iter(self._live)))
+            return self._others.popleft() if self._others else None
