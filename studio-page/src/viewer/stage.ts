@@ -4,7 +4,7 @@
  */
 
 import {
-  Color,
+
   DirectionalLight,
   HemisphereLight,
   PerspectiveCamera,
@@ -203,4 +203,3 @@ export class Stage {
   }
 }
 
-export const srgb = (css: string): Color => new Color().setStyle(css);

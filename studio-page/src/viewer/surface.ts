@@ -3,7 +3,7 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  Color,
+  type Color,
   DoubleSide,
   DynamicDrawUsage,
   Group,
@@ -21,13 +21,13 @@ export interface Triangles {
   indices: Uint32Array;
 }
 
-/** Three colours a face (F, 3, 3), or one for all of it. */
-export type Paint = Float32Array | Color;
+/** Writes a colour (linear light) for each corner of each face (F, 3, 3). */
+export type Paint = (colours: Float32Array, indices: Uint32Array) => void;
 
 export class Surface {
   readonly group = new Group();
   triangles: Triangles | null = null;
-  segments = new Float32Array();
+  segments: Float32Array = new Float32Array();
   private readonly faces = new BufferGeometry();
   private readonly lines = new BufferGeometry();
   private readonly skin = new MeshLambertMaterial({
@@ -46,30 +46,25 @@ export class Surface {
     this.group.visible = false;
   }
 
-  /** Show other triangles; buffers that are large enough are filled anew. */
+  /** Show another shape: its creases, and its faces in one colour until they are painted. */
   show(triangles: Triangles | null, paint: Paint): void {
     this.triangles = triangles;
     this.group.visible = triangles !== null && triangles.indices.length > 0;
     if (!triangles) return;
-    const { positions, indices } = triangles;
-    const corners = fill(this.faces, "position", indices.length * 3);
-    for (let i = 0; i < indices.length; i++) {
-      const v = 3 * indices[i]!;
-      corners[3 * i] = positions[v]!;
-      corners[3 * i + 1] = positions[v + 1]!;
-      corners[3 * i + 2] = positions[v + 2]!;
-    }
-    this.segments = creases(positions, indices);
+    this.segments = creases(triangles.positions, triangles.indices);
     fill(this.lines, "position", this.segments.length).set(this.segments);
-    this.paint(paint);
+    this.cover(triangles, paint);
   }
 
-  paint(paint: Paint): void {
-    if (!this.triangles) return;
-    const count = this.triangles.indices.length * 3;
-    const colours = fill(this.faces, "color", count);
-    if (paint instanceof Color) for (let i = 0; i < count; i += 3) paint.toArray(colours, i);
-    else colours.set(paint.subarray(0, count));
+  /** Faces of the shape, perhaps cut finer than those that its creases come from. Buffers are filled in place. */
+  cover({ positions, indices }: Triangles, paint: Paint): void {
+    const corners = fill(this.faces, "position", indices.length * 3);
+    const colours = fill(this.faces, "color", indices.length * 3);
+    for (let i = 0; i < indices.length; i++) {
+      const v = 3 * indices[i]!;
+      for (let k = 0; k < 3; k++) corners[3 * i + k] = positions[v + k]!;
+    }
+    paint(colours, indices);
   }
 
   /** Opacity of the faces, and colour and strength of the creases. */
