@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -126,7 +127,8 @@ def _train(
     stages.begin("train", epochs)
 
     def tell(epoch: Epoch) -> None:
-        stages.step(epoch.epoch, epochs, f"validation loss {epoch.validation:.3f}")
+        losses = {name: value if math.isfinite(value) else None for name, value in vars(epoch).items()}
+        stages.step(epoch.epoch, epochs, f"validation loss {epoch.validation:.3f}", losses)
 
     initial = previous.network if previous else None
     trained = train_network(procedure.space, training, validation, schedule, tell, settings.workers, initial)

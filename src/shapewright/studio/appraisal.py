@@ -13,7 +13,7 @@ from shapewright.comparison.silhouettes import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
 from shapewright.references.collection import Reference
 from shapewright.shapes import Mesh
-from shapewright.studio.builder import Built
+from shapewright.studio.built import Built
 from shapewright.studio.frames import binary
 from shapewright.studio.nearness import NearSurface
 from shapewright.studio.residuals import LIMIT, Residual, refined, residual

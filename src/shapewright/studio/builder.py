@@ -12,11 +12,9 @@ import pickle
 import signal
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from multiprocessing.connection import Client, Connection
 from pathlib import Path
 from types import FrameType
-from typing import Any
 
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.building.worker import build, limit_memory
@@ -25,29 +23,12 @@ from shapewright.procedure import Procedure, ProcedureError, author_line, load_p
 from shapewright.records import to_record
 from shapewright.results import at_limit
 from shapewright.shapes import Mesh
+from shapewright.studio.built import Built, Version
 
 LOADING_SECONDS = 20.0
 """What reading the author's file may take, its imports included."""
 MOST_TRIANGLES = 400_000
 """More than a page can turn smoothly."""
-
-
-@dataclass(frozen=True)
-class Version:
-    """A procedure that was read: its name, its parameters as plain values, and their defaults."""
-
-    name: str
-    parameters: list[dict[str, Any]]
-    defaults: Parameters
-
-
-@dataclass(frozen=True)
-class Built:
-    """A build, the names of the parameters that matter there, and of those at an end of their Range."""
-
-    build: Build
-    active: tuple[str, ...] = ()
-    at_limit: tuple[str, ...] = ()
 
 
 class TimeLimit(BaseException):

@@ -10,7 +10,7 @@ from typing import Any
 from shapewright.parameters import Parameters
 from shapewright.shapes import Mesh
 from shapewright.studio.appraisal import Target
-from shapewright.studio.builder import Built
+from shapewright.studio.built import Built
 from shapewright.studio.gallery import Shelf, picture, shape_bytes
 from shapewright.studio.problems import of_failure
 from shapewright.studio.workshop import Workshop

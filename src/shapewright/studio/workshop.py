@@ -13,7 +13,8 @@ from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.building.process import WorkerProcess
 from shapewright.parameters import Value
 from shapewright.procedure import ProcedureError
-from shapewright.studio.builder import LOADING_SECONDS, Built, Version
+from shapewright.studio.builder import LOADING_SECONDS
+from shapewright.studio.built import Built, Version
 from shapewright.studio.problems import Problem, problem, syntax_problem
 
 _PROGRAM = "shapewright.studio.builder"
