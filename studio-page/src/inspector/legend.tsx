@@ -25,7 +25,9 @@ export function Legend() {
       </p>
     );
   }
-  if (layout.value === "beside") return null;
+  if (layout.value === "beside") {
+    return <p class="legend soft">Drag to turn, wheel to come nearer, right-drag to move.</p>;
+  }
   return <OverLegend />;
 }
 

@@ -38,7 +38,7 @@ export function Space({ onFail }: { onFail: () => void }) {
       onFail();
       return undefined;
     }
-    open.onDraw = () => (drawn.value += 1);
+    open.onDraw = () => (drawn.value = drawn.peek() + 1);
     stage.value = open;
     const ends = [follow(open), point(open)];
     return () => {
