@@ -56,7 +56,6 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
                 <Picture url={tiles.value.get(slug)?.reference ?? null} tint={tiles.value.get(slug)?.colour ?? null} alt={slug} />
               </button>
             ))}
-            {references.length > SHOWN && <span class="soft">+{references.length - SHOWN}</span>}
             <span class="soft">{plural(references.length, "reference")}</span>
           </div>
         )}

@@ -20,7 +20,7 @@ export function Problems() {
         <ProblemLine key={i} problem={problem} />
       ))}
       {procedure.value.state === "broken" && collection.value.run !== null && (
-        <p class="soft">The shapes below are those of the last version that worked.</p>
+        <p class="soft">Shown is what the last version that worked could do.</p>
       )}
       {others.length > 0 && (
         <Button kind="quiet" onClick={() => (open.value = !open.value)}>

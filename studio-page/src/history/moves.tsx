@@ -19,10 +19,15 @@ export function Moves({ comparison }: { comparison: Comparison }) {
   return (
     <div class="moves">
       {some.length === 0 && <p class="soft">No reference has changed between the two.</p>}
-      {some.map(({ kind, title }) => (
+      {some.map(({ kind, title }, i) => (
         <section key={kind} class={kind}>
           <h2>
             {title} <small>{comparison[kind].length}</small>
+            {i === 0 && (
+              <span class="soft">
+                reference, {comparison.before.run}, {comparison.after.run}
+              </span>
+            )}
           </h2>
           <div class="tiles">
             {comparison[kind].map((move) => (

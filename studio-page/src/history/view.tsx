@@ -51,10 +51,10 @@ export function HistoryView() {
       {before === after ? (
         <p class="soft">{runs.value.length === 1 ? "With the next iteration, the two can be compared here." : "Choose two iterations to compare."}</p>
       ) : comparison.value ? (
-        <>
+        <div class="compared">
           <Moves comparison={comparison.value} />
           <Diff lines={comparison.value.diff} />
-        </>
+        </div>
       ) : (
         <p class="soft">Comparing…</p>
       )}

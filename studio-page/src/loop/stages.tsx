@@ -34,7 +34,7 @@ export function Stages() {
             <span class="time">{duration(seconds)}</span>
             {running && (
               <div class="bar">
-                <i style={{ width: percent(share) }} />
+                <i style={{ width: `${100 * share}%` }} />
               </div>
             )}
           </li>

@@ -1,7 +1,7 @@
 /** The loop: the procedure's text on one side, the fit on the other. */
 
 import { cancel, fit } from "../state/actions";
-import { collection, fitting, jobs, problems, procedure, settings } from "../state/studio";
+import { collection, fitting, jobs, procedure, settings } from "../state/studio";
 import { Button } from "../ui/controls";
 import { duration, plural } from "../ui/numbers";
 import { ProblemLine } from "../frame/problems";
@@ -37,14 +37,6 @@ export function LoopView() {
           <h2>Training</h2>
           <Curve curve={job.curve} epochs={settings.value?.epochs ?? 0} />
         </section>
-        {problems.value.length > 0 && (
-          <section>
-            <h2>Problems</h2>
-            {problems.value.map((problem, i) => (
-              <ProblemLine key={i} problem={problem} />
-            ))}
-          </section>
-        )}
         <section>
           <h2>Settings</h2>
           <Settings />
