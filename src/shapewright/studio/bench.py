@@ -166,11 +166,11 @@ class Bench:
         assert isinstance(made.shape, Mesh)
         replica = made.shape.normalised()
         answer(None, mesh_message(replica, {**case, **replica_header(built)}))
-        if request["slug"] is None or self._inbox.waiting:
+        if request["slug"] is None or self._inbox.outdated:
             return
         target = self._target(request["slug"])
         answer({"type": "distance", **case, **(target.measures(replica) if target else NOTHING)})
-        if not target or not request["residuals"] or self._inbox.waiting:
+        if not target or not request["residuals"] or self._inbox.outdated:
             return
         for side, residual in target.residuals(replica).items():
             answer(None, residual_message(residual, {**case, "shape": side}))

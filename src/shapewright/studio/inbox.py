@@ -38,6 +38,11 @@ class Inbox:
         """Whether there is a request."""
         return bool(self._live or self._others)
 
+    @property
+    def outdated(self) -> bool:
+        """Whether what is being answered is no longer what anyone waits for; fetches can wait."""
+        return bool(self._live) or any(request["do"] != "fetch" for request in list(self._others))
+
     def take(self, wait: bool) -> Request | None:
         """The next request; without one wait for it, or return None."""
         with self._arrived:
