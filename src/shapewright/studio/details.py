@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from shapewright.studio.board import Tile, lay_out, tint
+from shapewright.studio.board import Tile, tint
 from shapewright.studio.fitting import PREDICTIONS
 from shapewright.studio.history import EXPLANATION, source_of
 from shapewright.studio.project import Missing
@@ -48,10 +48,9 @@ def run_detail(session: Session, name: str) -> dict[str, Any]:
     showing = session.showing
     folder = session.project.run(name)
     record = read_record(folder)
-    kept = {slug: tile.reference for slug, tile in showing.board.tiles.items()}
     return {
         "run": next(run for run in session.runs() if run["run"] == name),
-        "collection": lay_out(showing.listed, showing.pictures, kept, record, folder).record(),
+        "collection": showing.laid_out(folder, record["threshold"]).record(),
         "source": source_of(folder),
         "parameters": record["procedure"]["parameters"],
         "settings": record["settings"],

@@ -71,19 +71,27 @@ class Showing:
         """Put up a run, or bare references, and tell the pages."""
         self.stop_sweep()
         self.run = run
-        record = read_record(run) if run else None
-        earlier = self.project.runs
-        before = earlier[earlier.index(run) - 1] if run in earlier[1:] else None
-        kept = {slug: self._kept(slug) for slug in self.listed.sources}
-        board = lay_out(
-            self.listed, self.pictures, kept, record, run, read_record(before) if before else None, threshold
-        )
-        for slug, (path, reason) in self._unreadable.items():
-            board = board.without(slug, path, reason)
-        self.board = board
+        self.board = self.laid_out(run, threshold)
         self._forget_pictures()
         self.pages.publish("collection", collection=self.board.record())
         self._tell_problems()
+
+    def laid_out(self, run: Path | None, threshold: float) -> Board:
+        """The board that ``show`` puts up, without putting it up. Raises RunError."""
+        runs = self.project.runs
+        before = runs[runs.index(run) - 1] if run in runs[1:] else None
+        board = lay_out(
+            self.listed,
+            self.pictures,
+            {slug: self._kept(slug) for slug in self.listed.sources},
+            read_record(run) if run else None,
+            run,
+            read_record(before) if before else None,
+            threshold,
+        )
+        for slug, (path, reason) in self._unreadable.items():
+            board = board.without(slug, path, reason)
+        return board
 
     @property
     def missing(self) -> list[str]:
