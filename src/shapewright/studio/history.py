@@ -48,7 +48,8 @@ def _summary(folder: Path, stamp: int) -> Mapping[str, Any]:
 def source_of(run: Path) -> str:
     """The procedure that a run was made with; empty where the run has none."""
     path = run / "procedure.py"
-    return path.read_text(encoding="utf-8") if path.is_file() else ""
+    inside = path.is_file() and path.resolve().parent == run.resolve()
+    return path.read_text(encoding="utf-8") if inside else ""
 
 
 def comparison(before: Path, after: Path, slugs: Mapping[str, str], address: Address) -> dict[str, Any]:

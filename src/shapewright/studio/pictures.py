@@ -9,9 +9,10 @@ from shapewright.studio.project import Missing
 
 
 class Pictures:
-    """PNGs in memory, and files that are read when they are asked for."""
+    """PNGs in memory, and files that are read when they are asked for. homes: folders that these must lie in."""
 
-    def __init__(self) -> None:
+    def __init__(self, *homes: Path) -> None:
+        self._homes = [home.resolve() for home in homes]
         self._known: dict[str, bytes | Path] = {}
 
     def add(self, png: bytes) -> str:
@@ -19,10 +20,12 @@ class Pictures:
         return self._put(hashlib.blake2b(png, digest_size=12), png)
 
     def add_file(self, path: Path) -> str | None:
-        """The address of a picture on disk, None where it is not there."""
+        """The address of a picture on disk; None where it is not there, or a link that leads out of the homes."""
         try:
             state = path.stat()
         except OSError:
+            return None
+        if not any(path.resolve().is_relative_to(home) for home in self._homes):
             return None
         return self._put(hashlib.blake2b(repr((path, state.st_mtime_ns, state.st_size)).encode(), digest_size=12), path)
 

@@ -76,8 +76,8 @@ class Project:
 
     @property
     def runs(self) -> list[Path]:
-        """Folders of whole runs, oldest first."""
-        return runs(self.folder / "runs")
+        """Folders of whole runs, oldest first; none that leads out of the project."""
+        return [run for run in runs(self.folder / "runs") if run.resolve().is_relative_to(self.folder)]
 
     def run(self, name: str) -> Path:
         """The folder of a run. Raises Missing when there is none of this name."""

@@ -33,7 +33,7 @@ class Showing:
     ) -> None:
         self._on_problems = on_problems
         self.project, self.pages, self.cache = project, pages, cache
-        self.pictures = Pictures()
+        self.pictures = Pictures(project.folder, *([cache] if cache else []))
         self.board = Board()
         self.listed = Listing({}, {})
         self.run: Path | None = None
