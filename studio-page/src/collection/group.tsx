@@ -1,16 +1,23 @@
 /** A group of references that look alike: its representative, or all of it, opened in place. */
 
+import { useLayoutEffect } from "preact/hooks";
 import { Button } from "../ui/controls";
 import { fixed, plural } from "../ui/numbers";
 import type { Tile } from "../wire/protocol";
+import { at, focusOn } from "./focus";
 import { openGroups, toggleGroup } from "./order";
 import { TileCard } from "./tile";
 
 export function GroupCard({ tiles, number }: { tiles: Tile[]; number: number }) {
   const [representative, ...others] = tiles;
-  if (!representative) return null;
-  const { slug } = representative;
+  const slug = representative?.slug ?? "";
   const open = openGroups.value.has(slug) && others.length > 0;
+  useLayoutEffect(() => {
+    // Its tiles are new ones now: the focus that was on one of them is lost.
+    const lost = document.activeElement === null || document.activeElement === document.body;
+    if (lost && tiles.some((tile) => tile.slug === at.value)) focusOn(slug);
+  }, [open]);
+  if (!representative) return null;
   const toggle = () => toggleGroup(slug);
   if (!open) {
     return (

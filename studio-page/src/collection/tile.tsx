@@ -41,7 +41,7 @@ export function TileCard({ tile, children }: { tile: Tile; children?: ComponentC
         )}
         {tile.at_limit.length > 0 && (
           <span class="badge warn" title={`At the end of its Range: ${tile.at_limit.join(", ")}`}>
-            limit
+            <Icon name="limit" />
           </span>
         )}
         {tile.stale ? (

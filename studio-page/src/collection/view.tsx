@@ -83,7 +83,6 @@ function toggleFocused(): void {
   if (!representative || (section?.tiles.length ?? 0) < 2) return;
   toggleGroup(representative);
   at.value = representative;
-  requestAnimationFrame(() => focusOn(representative));
 }
 
 function Sections() {

@@ -15,6 +15,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { born, gone } from "./diagnostics";
 import { Surface } from "./surface";
 
 export type Side = "reference" | "replica";
@@ -58,7 +59,10 @@ export class Stage {
 
   /** Raises an error when the browser has no WebGL. */
   constructor(private readonly container: HTMLElement) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, powerPreference: "default" });
+    const context = this.canvas.getContext("webgl2", { antialias: true, alpha: true });
+    if (!context) throw new Error("This browser has no WebGL.");
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
+    born(this);
     this.renderer.autoClear = false;
     container.append(this.canvas);
     for (const side of SIDES) {
@@ -154,8 +158,7 @@ export class Stage {
     return { geometries: memory.geometries, textures: memory.textures, programs: programs?.length ?? 0 };
   }
 
-  /** A picture of the stage as it is, for tests: the canvas itself is not kept between drawings. */
-  draw(): void {
+  private draw(): void {
     this.lamps.forEach((lamp) => {
       // Over the viewer's left shoulder, so that faces towards all three axes differ.
       lamp.position.copy(this.camera.position).add(new Vector3(-1.2, 1.8, 0.6).applyQuaternion(this.camera.quaternion));
@@ -182,6 +185,7 @@ export class Stage {
     this.renderer.dispose();
     this.renderer.forceContextLoss();
     this.canvas.remove();
+    gone(this);
   }
 
   set controllable(on: boolean) {
