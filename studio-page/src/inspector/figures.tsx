@@ -3,7 +3,7 @@
 import { mark } from "../state/actions";
 import { collection, marks } from "../state/studio";
 import { Button } from "../ui/controls";
-import { fixed, percent, plural, significant } from "../ui/numbers";
+import { fixed, plural, significant } from "../ui/numbers";
 import { Dot } from "../ui/picture";
 import { edited, failure, figures, outcome, reference, waiting } from "./session";
 
@@ -113,30 +113,6 @@ export function Facts() {
           {note}
         </p>
       ))}
-    </section>
-  );
-}
-
-export function Causes() {
-  const explanation = reference.value?.explanation;
-  if (!explanation || (!explanation.causes.length && !explanation.regions.length)) return null;
-  return (
-    <section class="causes">
-      <h3>Why it differs</h3>
-      {explanation.causes.map(({ kind, text }, i) => (
-        <p key={i}>
-          <span class="badge cause">{kind.replaceAll("_", " ")}</span> {text}
-        </p>
-      ))}
-      <ul>
-        {explanation.regions.map(({ side, share, label }, i) => (
-          <li key={i}>
-            <span class={`badge ${side}`}>{side}</span>{" "}
-            {share !== null && share !== undefined && `${percent(share)} of the surface`}
-            {label && ` near ${label}`}
-          </li>
-        ))}
-      </ul>
     </section>
   );
 }

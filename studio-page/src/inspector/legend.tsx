@@ -4,7 +4,7 @@ import { Segments } from "../ui/controls";
 import { partColour } from "../viewer/paint";
 import { theme } from "../state/theme";
 import { colouring, original, replica, residuals } from "./session";
-import { blend, COLOURS, layout } from "./space";
+import { blend, COLOURS, layout } from "./showing";
 
 export function Legend() {
   const mesh = replica.value;

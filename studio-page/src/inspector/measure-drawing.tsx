@@ -5,7 +5,7 @@ import { bounds, boxEdges } from "../viewer/snapping";
 import type { Side, Stage } from "../viewer/stage";
 import { fixed } from "../ui/numbers";
 import { degrees, hover, length, points, snapping, tool } from "./measuring";
-import { drawn, stage } from "./space";
+import { drawn, stage } from "./showing";
 
 export function MeasureDrawing() {
   void drawn.value;

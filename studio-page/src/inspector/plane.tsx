@@ -2,7 +2,7 @@
 
 import type { DrawingMessage } from "../wire/protocol";
 import { failure, original, replica } from "./session";
-import { blend, layout } from "./space";
+import { blend, layout } from "./showing";
 
 /** Drawings lie within half a unit of the origin, y up. */
 const FRAME = "-0.54 -0.54 1.08 1.08";

@@ -1,6 +1,6 @@
 /** The stage with both meshes, and the drawing of measures over it. */
 
-import { effect, signal } from "@preact/signals";
+import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { Color } from "three";
 import { theme } from "../state/theme";
@@ -12,21 +12,9 @@ import type { Surface } from "../viewer/surface";
 import type { MeshMessage } from "../wire/protocol";
 import { hover, place, points, snapping, tool } from "./measuring";
 import { MeasureDrawing } from "./measure-drawing";
+import { RegionsDrawing } from "./regions-drawing";
 import { colouring, failure, original, replica, residuals } from "./session";
-
-export type Layout = "beside" | "over" | "difference";
-export const layout = signal<Layout>("beside");
-/** Opacity of the replica when it lies over the reference. */
-export const blend = signal(0.55);
-/** The stage that is open, null without one. */
-export const stage = signal<Stage | null>(null);
-/** Raised by every drawing, so that what lies over the stage follows. */
-export const drawn = signal(0);
-
-export const COLOURS = {
-  light: { reference: "#aeb5bd", replica: "#c9c3b4", over: "#e08a2e", ink: "#20242a" },
-  dark: { reference: "#a3abb4", replica: "#bcb5a4", over: "#e8963c", ink: "#0c0e10" },
-} as const;
+import { blend, COLOURS, drawn, layout, stage } from "./showing";
 
 export function Space({ onFail }: { onFail: () => void }) {
   const place_ = useRef<HTMLDivElement>(null);
@@ -49,6 +37,7 @@ export function Space({ onFail }: { onFail: () => void }) {
   }, []);
   return (
     <div class={`space ${tool.value === "off" ? "" : "measuring"}`} ref={place_} data-stage>
+      <RegionsDrawing />
       <MeasureDrawing />
     </div>
   );

@@ -12,7 +12,8 @@ import { Button, Segments } from "../ui/controls";
 import type { Slug } from "../wire/protocol";
 import { VIEWS } from "../viewer/stage";
 import type { View } from "../viewer/stage";
-import { Causes, Facts, Figures, Judgement } from "./figures";
+import { Causes, regionsShown } from "./causes";
+import { Facts, Figures, Judgement } from "./figures";
 import { LayoutSwitch, Legend, OverLegend } from "./legend";
 import { MeasureCard } from "./measure-card";
 import { take, tool, undo } from "./measuring";
@@ -20,7 +21,8 @@ import { Parameters } from "./parameters";
 import { Pictures } from "./pictures";
 import { DifferenceLegend, Plane } from "./plane";
 import { colouring, edited, failure, open, original, reset } from "./session";
-import { layout, Space, stage } from "./space";
+import { layout, stage } from "./showing";
+import { Space } from "./space";
 
 export function Inspector({ slug }: { slug: Slug }) {
   const webgl = useSignal(true);
@@ -145,6 +147,7 @@ function InspectorKeys({ slug, step, close }: { slug: Slug; step: (by: number) =
     { keys: ["j", "k"], does: "tilt", run: ({ key }) => turn(0, key === "k" ? 10 : -10) },
     { keys: ["+", "=", "-"], does: "closer, farther", run: ({ key }) => turn(0, 0, key === "-" ? 0.85 : 1 / 0.85) },
     { keys: ["0"], does: "look from three quarters", run: () => stage.value?.look("three-quarter") },
+    { keys: ["e"], does: "mark where they differ", run: () => (regionsShown.value = !regionsShown.value) },
     { keys: ["s"], does: "mark the pair as the same", run: () => say(true) },
     { keys: ["x"], does: "mark the pair as different", run: () => say(false) },
   ]);

@@ -176,7 +176,8 @@ export interface ReferenceExplanation {
 }
 
 export interface Region {
-  side: "missing" | "extra";
+  /** Of the reference, or of the replica. */
+  side: "unexplained" | "surplus";
   centre: Triple;
   size: Triple;
   axes: [Triple, Triple, Triple];
@@ -198,8 +199,16 @@ export interface Suggestion {
   tried: unknown;
 }
 
+/** References that share a cause. */
+export interface SharedCause {
+  kind: string;
+  text: string;
+  references: Slug[];
+}
+
 export interface Explanation {
   references: Record<Slug, ReferenceExplanation>;
+  summary?: SharedCause[];
   suggestions: Suggestion[];
 }
 
