@@ -59,7 +59,7 @@ export function OverLegend() {
 function Residual() {
   const known = residuals.value.replica ?? residuals.value.reference;
   const limit = known?.limit ?? 0.1;
-  const signed = residuals.value.replica?.signed ?? residuals.value.reference?.signed ?? false;
+  const signed = Boolean(residuals.value.replica?.signed || residuals.value.reference?.signed);
   return (
     <p class="legend residual">
       <span>{signed ? `inside ${limit}` : ""}</span>
