@@ -5,7 +5,8 @@ import { collection } from "../state/studio";
 import { Segments, Select } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { percent } from "../ui/numbers";
-import { counts, filter, search, sort } from "./order";
+import { focusOn } from "./focus";
+import { counts, filter, leafed, search, sort } from "./order";
 import type { Filter, Sort } from "./order";
 import { Strip } from "./strip";
 
@@ -68,9 +69,13 @@ export function Toolbar() {
           value={search.value}
           onInput={(event) => (search.value = event.currentTarget.value)}
           onKeyDown={(event) => {
-            if (event.key !== "Escape") return;
-            search.value = "";
-            event.currentTarget.blur();
+            if (event.key === "Enter" || event.key === "ArrowDown") {
+              event.preventDefault();
+              focusOn(leafed.value[0] ?? null);
+            } else if (event.key === "Escape") {
+              search.value = "";
+              event.currentTarget.blur();
+            }
           }}
         />
         <kbd>/</kbd>

@@ -69,10 +69,7 @@ function ActiveKeys() {
   return null;
 }
 
-function openFocused(event: KeyboardEvent): void {
-  // A button with the focus acts by itself.
-  const button = (event.target as HTMLElement).closest("button:not([data-tile]), a");
-  if (button instanceof HTMLElement) return button.click();
+function openFocused(): void {
   const slug = at.value ?? leafed.value[0];
   if (slug) inspect(slug);
 }

@@ -63,13 +63,16 @@ export function open(next: Slug): () => void {
 /** Ask again whenever what was found for the pair, or the procedure, or the connection has changed. */
 function watch(next: Slug): () => void {
   let shape: string | null | undefined;
-  return effect(() => {
+  const known = computed(() => {
     const tile = tileOf(next);
-    // Reading these makes the effect run again when they change.
-    void [tile?.replica, tile?.stage, tile?.stale, procedure.value.digest, procedure.value.state, connected.value];
-    void colouring.value;
-    if (!connected.value) return;
+    const { digest, state } = procedure.value;
+    return [tile?.replica, tile?.distance, tile?.stage, tile?.stale, digest, state, connected.value, colouring.value].join();
+  });
+  return effect(() => {
+    void known.value;
     untracked(() => {
+      if (!connected.value) return;
+      const tile = tileOf(next);
       requests.reference(next).then((found) => slug.value === next && (reference.value = found), note(next));
       if (tile && tile.reference !== shape) {
         shape = tile.reference;

@@ -1,7 +1,7 @@
 /** The inspector: one reference and its replica, large, with everything about them. */
 
 import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { neighbour } from "../collection/order";
 import { at } from "../collection/focus";
 import { mark } from "../state/actions";
@@ -32,6 +32,8 @@ export function Inspector({ slug }: { slug: Slug }) {
     take(tool.value);
     return open(slug);
   }, [slug]);
+  const self = useRef<HTMLDivElement>(null);
+  useEffect(() => self.current?.focus(), []);
   useEffect(() => {
     if (!flat && layout.value === "difference") layout.value = "over";
   }, [flat]);
@@ -41,7 +43,7 @@ export function Inspector({ slug }: { slug: Slug }) {
   };
   const close = () => go("collection");
   return (
-    <div class="inspector" role="region" aria-label="Inspector">
+    <div class="inspector" role="region" aria-label="Inspector" tabIndex={-1} ref={self}>
       <InspectorKeys slug={slug} step={step} close={close} />
       <div class="workplace">
         <div class="tools">

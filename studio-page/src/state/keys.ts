@@ -35,17 +35,21 @@ export function useKeys(place: string, keys: Key[]): void {
   }, [place, keys.length]);
 }
 
-/** Whether keys belong to the element that has the focus. */
-export function typing(target: EventTarget | null): boolean {
-  const element = target as HTMLElement | null;
-  if (!element?.closest) return false;
-  if (element.closest("[contenteditable=true], textarea, select, dialog[open]")) return true;
-  const input = element.closest("input");
-  return input !== null && !["checkbox", "radio", "button"].includes(input.type);
+const ARROWS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"];
+
+/** Whether a key belongs to the element that has the focus. */
+function taken({ key, target }: KeyboardEvent): boolean {
+  if (!(target instanceof Element)) return false;
+  if (target.closest("[contenteditable=true], textarea, dialog[open]")) return true;
+  if (target.closest("select")) return key !== "Escape";
+  const input = target.closest("input");
+  if (input?.type === "range" || target.closest("[role=radiogroup]")) return ARROWS.includes(key);
+  if (input && input.type !== "checkbox") return true;
+  return (key === " " || key === "Enter") && target.closest("button:not([data-tile]), a, summary, input") !== null;
 }
 
 window.addEventListener("keydown", (event) => {
-  if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || typing(event.target)) return;
+  if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || taken(event)) return;
   for (const map of [...keyMaps.value].reverse()) {
     const key = map.keys.find(({ keys }) => keys.includes(event.key));
     if (!key) continue;

@@ -46,8 +46,18 @@ export function Segments<T extends string>(props: {
   value: T;
   onChange: (value: T) => void;
 }) {
+  const step = (event: KeyboardEvent) => {
+    const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    const open = props.options.filter(({ disabled }) => !disabled);
+    const next = by && open.at((open.findIndex(({ value }) => value === props.value) + by) % open.length);
+    if (!next) return;
+    event.preventDefault();
+    props.onChange(next.value);
+    const buttons = (event.currentTarget as HTMLElement).querySelectorAll("button");
+    buttons[props.options.indexOf(next)]?.focus();
+  };
   return (
-    <div class="segments" role="radiogroup" aria-label={props.label}>
+    <div class="segments" role="radiogroup" aria-label={props.label} onKeyDown={step}>
       {props.options.map(({ value, label, title, disabled }) => (
         <button
           type="button"
@@ -56,6 +66,7 @@ export function Segments<T extends string>(props: {
           title={title}
           disabled={disabled}
           aria-checked={value === props.value}
+          tabIndex={value === props.value ? 0 : -1}
           onClick={() => props.onChange(value)}
         >
           {label}
