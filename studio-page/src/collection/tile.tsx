@@ -56,10 +56,12 @@ export function TileCard({ tile, children }: { tile: Tile; children?: ComponentC
           )
         )}
         <Change tile={tile} />
-        <span class="distance" title="Light-field distance">
-          <Dot colour={tile.colour} />
-          {fixed(tile.distance)}
-        </span>
+        {tile.replica && (
+          <span class="distance" title="Distance from the reference">
+            <Dot colour={tile.colour} />
+            {fixed(tile.distance)}
+          </span>
+        )}
       </footer>
       {children}
     </article>

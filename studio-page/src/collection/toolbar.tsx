@@ -30,7 +30,6 @@ export const searchField = createRef<HTMLInputElement>();
 
 export function Toolbar() {
   const { compatible, count, run } = collection.value;
-  const some = FILTERS.filter(({ value }) => value === "all" || value === filter.value || counts.value[value] > 0);
   return (
     <div class="toolbar">
       <div class="score">
@@ -44,42 +43,55 @@ export function Toolbar() {
         )}
       </div>
       <Strip />
-      <Segments
-        label="Show"
-        value={filter.value}
-        onChange={(value) => (filter.value = value)}
-        options={some.map(({ value, label, title }) => ({
-          value,
-          title,
-          label: (
-            <>
-              {label} <small>{counts.value[value]}</small>
-            </>
-          ),
-        }))}
-      />
+      {collection.value.tiles.some(({ replica }) => replica) && <Filters />}
       <Select label="Order" hidden options={SORTS} value={sort.value} onChange={(value) => (sort.value = value)} />
-      <label class="search">
-        <Icon name="search" />
-        <input
-          ref={searchField}
-          type="search"
-          placeholder="Name"
-          aria-label="Search by name (/)"
-          value={search.value}
-          onInput={(event) => (search.value = event.currentTarget.value)}
-          onKeyDown={(event) => {
-            if (event.key === "Enter" || event.key === "ArrowDown") {
-              event.preventDefault();
-              focusOn(leafed.value[0] ?? null);
-            } else if (event.key === "Escape") {
-              search.value = "";
-              event.currentTarget.blur();
-            }
-          }}
-        />
-        <kbd>/</kbd>
-      </label>
+      <Search />
     </div>
+  );
+}
+
+function Filters() {
+  const some = FILTERS.filter(({ value }) => value === "all" || value === filter.value || counts.value[value] > 0);
+  return (
+    <Segments
+      label="Show"
+      value={filter.value}
+      onChange={(value) => (filter.value = value)}
+      options={some.map(({ value, label, title }) => ({
+        value,
+        title,
+        label: (
+          <>
+            {label} <small>{counts.value[value]}</small>
+          </>
+        ),
+      }))}
+    />
+  );
+}
+
+function Search() {
+  return (
+    <label class="search">
+      <Icon name="search" />
+      <input
+        ref={searchField}
+        type="search"
+        placeholder="Name"
+        aria-label="Search by name (/)"
+        value={search.value}
+        onInput={(event) => (search.value = event.currentTarget.value)}
+        onKeyDown={(event) => {
+          if (event.key === "Enter" || event.key === "ArrowDown") {
+            event.preventDefault();
+            focusOn(leafed.value[0] ?? null);
+          } else if (event.key === "Escape") {
+            search.value = "";
+            event.currentTarget.blur();
+          }
+        }}
+      />
+      <kbd>/</kbd>
+    </label>
   );
 }

@@ -75,7 +75,9 @@ function openFocused(): void {
 }
 
 function toggleFocused(): void {
-  const section = sections.value.find(({ kind, tiles }) => kind === "group" && tiles.some(({ slug }) => slug === at.value));
+  const section = sections.value.find(
+    ({ kind, tiles }) => kind === "group" && tiles.some(({ slug }) => slug === at.value),
+  );
   const representative = section?.tiles[0]?.slug;
   if (!representative || (section?.tiles.length ?? 0) < 2) return;
   toggleGroup(representative);
@@ -109,7 +111,12 @@ function Sections() {
 
 function Plain({ section: { kind, tiles } }: { section: Section }) {
   const folded = kind === "compatible" && filter.value === "all" && !searching.value && !compatibleOpen.value;
-  const title = { loose: collection.value.run ? "Not in a group" : "References", compatible: "Compatible", all: "", group: "" }[kind];
+  const title = {
+    loose: collection.value.run ? "Not in a group" : "References",
+    compatible: "Compatible",
+    all: "",
+    group: "",
+  }[kind];
   return (
     <section aria-label={title || "References"}>
       {title && (

@@ -31,8 +31,18 @@ function SharedRow({ cause: { kind, text, references } }: { cause: SharedCause }
       </header>
       <div class="for">
         {known.slice(0, MOST).map((slug) => (
-          <button key={slug} type="button" class="thumb" title={tiles.value.get(slug)?.name} onClick={() => inspect(slug)}>
-            <Picture url={tiles.value.get(slug)?.reference ?? null} tint={tiles.value.get(slug)?.colour ?? null} alt={slug} />
+          <button
+            key={slug}
+            type="button"
+            class="thumb"
+            title={tiles.value.get(slug)?.name}
+            onClick={() => inspect(slug)}
+          >
+            <Picture
+              url={tiles.value.get(slug)?.reference ?? null}
+              tint={tiles.value.get(slug)?.colour ?? null}
+              alt={slug}
+            />
           </button>
         ))}
         {known.length > MOST && <span class="soft">+{known.length - MOST}</span>}

@@ -17,8 +17,8 @@ export function Marks() {
       </h2>
       {known.length === 0 ? (
         <p class="soft">
-          Open a pair and say whether it is the same or different to your eye (keys s and x). From some marks of each kind,
-          a threshold that means what you mean can be found; it is {fixed(collection.value.threshold, 2)} now.
+          Open a pair and say whether it is the same or different to your eye (keys s and x). From some marks of each
+          kind, a threshold that means what you mean can be found; it is {fixed(collection.value.threshold, 2)} now.
         </p>
       ) : (
         <ul class="marks">

@@ -41,7 +41,11 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
         <header>
           <span class="badge cause">{kind.replaceAll("_", " ")}</span>
           <h3>{title}</h3>
-          {gain !== null && gain !== undefined && <span class="gain" title="Further references that become compatible, as tried">+{gain}</span>}
+          {gain !== null && gain !== undefined && (
+            <span class="gain" title="Further references that become compatible, as tried">
+              +{gain}
+            </span>
+          )}
         </header>
         <p>{text}</p>
         {snippet && (
@@ -52,8 +56,18 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
         {references.length > 0 && (
           <div class="for">
             {references.slice(0, SHOWN).map((slug) => (
-              <button key={slug} type="button" class="thumb" title={tiles.value.get(slug)?.name ?? slug} onClick={() => inspect(slug)}>
-                <Picture url={tiles.value.get(slug)?.reference ?? null} tint={tiles.value.get(slug)?.colour ?? null} alt={slug} />
+              <button
+                key={slug}
+                type="button"
+                class="thumb"
+                title={tiles.value.get(slug)?.name ?? slug}
+                onClick={() => inspect(slug)}
+              >
+                <Picture
+                  url={tiles.value.get(slug)?.reference ?? null}
+                  tint={tiles.value.get(slug)?.colour ?? null}
+                  alt={slug}
+                />
               </button>
             ))}
             <span class="soft">{plural(references.length, "reference")}</span>

@@ -21,7 +21,11 @@ const SHOWN = { collection: CollectionView, loop: LoopView, history: HistoryView
 export function App() {
   useKeys("Everywhere", [
     { keys: ["?"], does: "these keys", run: () => (helping.value = true) },
-    { keys: VIEWS.map((_, i) => `${i + 1}`), does: "Collection, Loop, History, Feedback", run: (event) => go(VIEWS[Number(event.key) - 1]!) },
+    {
+      keys: VIEWS.map((_, i) => `${i + 1}`),
+      does: "Collection, Loop, History, Feedback",
+      run: (event) => go(VIEWS[Number(event.key) - 1]!),
+    },
     {
       keys: ["f"],
       does: "fit",

@@ -29,7 +29,8 @@ export function ExportMenu() {
   useEffect(() => {
     const away = (event: Event) => {
       const escape = event instanceof KeyboardEvent && event.key === "Escape";
-      if (escape || (event.type === "pointerdown" && !place.current?.contains(event.target as Node))) open.value = false;
+      if (escape || (event.type === "pointerdown" && !place.current?.contains(event.target as Node)))
+        open.value = false;
     };
     window.addEventListener("pointerdown", away);
     window.addEventListener("keydown", away);
@@ -75,8 +76,18 @@ export function ExportMenu() {
             />
             {what.value.includes("samples") && (
               <>
-                <Count label="Samples" value={order.value.count} min={1} set={(count) => (order.value = { ...order.value, count })} />
-                <Count label="Seed" value={order.value.seed} min={0} set={(seed) => (order.value = { ...order.value, seed })} />
+                <Count
+                  label="Samples"
+                  value={order.value.count}
+                  min={1}
+                  set={(count) => (order.value = { ...order.value, count })}
+                />
+                <Count
+                  label="Seed"
+                  value={order.value.seed}
+                  min={0}
+                  set={(seed) => (order.value = { ...order.value, seed })}
+                />
               </>
             )}
           </div>

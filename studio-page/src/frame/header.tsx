@@ -2,7 +2,7 @@
 
 import { cancel, fit } from "../state/actions";
 import { go, route, VIEWS } from "../state/route";
-import { bench, connected, fitting, jobs, procedure, project } from "../state/studio";
+import { bench, collection, connected, fitting, jobs, procedure, project } from "../state/studio";
 import { switchTheme, theme } from "../state/theme";
 import { Button } from "../ui/controls";
 import { duration } from "../ui/numbers";
@@ -99,7 +99,7 @@ function FitButton() {
       icon="play"
       kind="primary"
       class="fit"
-      disabled={procedure.value.state === "broken"}
+      disabled={procedure.value.state === "broken" || collection.value.count === 0}
       title={procedure.value.state === "broken" ? "The procedure is broken" : "Find parameters for every reference (f)"}
       onClick={() => fit()}
     >

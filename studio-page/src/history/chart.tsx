@@ -5,7 +5,12 @@ import type { Run } from "../wire/protocol";
 
 const HEIGHT = 132;
 
-export function Chart(props: { runs: Run[]; before: string; after: string; onPick: (run: string, before: boolean) => void }) {
+export function Chart(props: {
+  runs: Run[];
+  before: string;
+  after: string;
+  onPick: (run: string, before: boolean) => void;
+}) {
   const most = Math.max(1, ...props.runs.map(({ references }) => references));
   return (
     <ol class="chart">

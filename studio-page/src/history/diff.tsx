@@ -46,7 +46,9 @@ export function Diff({ lines }: { lines: DiffLine[] }) {
 /** Changed lines and those around them; null where lines are left out. */
 function near(lines: DiffLine[]): (DiffLine | null)[] {
   const kept = new Set(
-    lines.flatMap(({ kind }, i) => (kind === "same" ? [] : Array.from({ length: 2 * CONTEXT + 1 }, (_, k) => i - CONTEXT + k))),
+    lines.flatMap(({ kind }, i) =>
+      kind === "same" ? [] : Array.from({ length: 2 * CONTEXT + 1 }, (_, k) => i - CONTEXT + k),
+    ),
   );
   const shown: (DiffLine | null)[] = [];
   lines.forEach((line, i) => {

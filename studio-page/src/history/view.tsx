@@ -29,7 +29,9 @@ export function HistoryView() {
   if (runs.value.length === 0) {
     return (
       <Empty title="No iteration yet">
-        <p>Every fit is kept here, with its procedure: how many references it replicates, and what it gained and lost.</p>
+        <p>
+          Every fit is kept here, with its procedure: how many references it replicates, and what it gained and lost.
+        </p>
       </Empty>
     );
   }
@@ -49,7 +51,11 @@ export function HistoryView() {
         </div>
       </section>
       {before === after ? (
-        <p class="soft">{runs.value.length === 1 ? "With the next iteration, the two can be compared here." : "Choose two iterations to compare."}</p>
+        <p class="soft">
+          {runs.value.length === 1
+            ? "With the next iteration, the two can be compared here."
+            : "Choose two iterations to compare."}
+        </p>
       ) : comparison.value ? (
         <div class="compared">
           <Moves comparison={comparison.value} />
@@ -91,7 +97,12 @@ function RunFacts({ run }: { run: Run }) {
         <b>Run {run.run}</b> · {moment(run.created)} · {duration(run.seconds)} · {plural(run.groups, "group")}
       </p>
       <div class="row">
-        <Button icon="reset" disabled={here} title={here ? "The procedure is this one" : "Put this run's procedure back as procedure.py"} onClick={() => void restore()}>
+        <Button
+          icon="reset"
+          disabled={here}
+          title={here ? "The procedure is this one" : "Put this run's procedure back as procedure.py"}
+          onClick={() => void restore()}
+        >
           Go back to its procedure
         </Button>
         <a class="link" href={`/api/runs/${run.run}/report.html`} target="_blank" rel="noopener">

@@ -21,7 +21,12 @@ export function Causes() {
       <header>
         <h3>Why it differs</h3>
         {regions.length > 0 && (
-          <Toggle label="mark" title="Mark the regions on the stage (e)" on={regionsShown.value} onChange={(on) => (regionsShown.value = on)} />
+          <Toggle
+            label="mark"
+            title="Mark the regions on the stage (e)"
+            on={regionsShown.value}
+            onChange={(on) => (regionsShown.value = on)}
+          />
         )}
       </header>
       {causes.map(({ kind, text }, i) => (

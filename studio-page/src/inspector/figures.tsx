@@ -18,7 +18,13 @@ export function Figures() {
         <Dot colour={failed ? null : (now?.colour ?? null)} />
         <output data-figure="distance">{failed ? "–" : fixed(now?.distance)}</output>
         <span class={`verdict ${now?.compatible && !failed ? "good" : ""}`}>
-          {failed ? "no shape" : now?.distance == null ? "not measured" : now.compatible ? "compatible" : "incompatible"}
+          {failed
+            ? "no shape"
+            : now?.distance == null
+              ? "not measured"
+              : now.compatible
+                ? "compatible"
+                : "incompatible"}
           <small>
             {collection.value.measure || "distance"}, threshold {fixed(collection.value.threshold, 2)}
           </small>
@@ -76,7 +82,11 @@ export function Judgement() {
           different
         </Button>
       </div>
-      <p class="soft">{marks.value.length === 0 ? "Marks tell what the threshold should be." : `${plural(marks.value.length, "pair")} marked.`}</p>
+      <p class="soft">
+        {marks.value.length === 0
+          ? "Marks tell what the threshold should be."
+          : `${plural(marks.value.length, "pair")} marked.`}
+      </p>
     </section>
   );
 }

@@ -28,7 +28,11 @@ function Half({ open, side }: { open: Stage; side: Side }) {
   const seen = points.value.flatMap(({ point }) => see(point) ?? []);
   const under = hover.value;
   const cursor = under && (under.side === side || open.layout === "over") ? see(under.point) : null;
-  const label = length.value ? fixed(length.value.total) : degrees.value === null ? null : `${degrees.value.toFixed(1)}°`;
+  const label = length.value
+    ? fixed(length.value.total)
+    : degrees.value === null
+      ? null
+      : `${degrees.value.toFixed(1)}°`;
   const middle = degrees.value === null ? halfway(seen) : seen[1];
   return (
     <g clipPath={`url(#${id})`}>
@@ -59,7 +63,8 @@ const halfway = (seen: { x: number; y: number }[]) => {
 };
 
 function Cursor({ x, y, kind }: { x: number; y: number; kind: string }) {
-  const shape = kind === "vertex" || kind === "box" ? "M-5 -5H5V5H-5Z" : kind === "edge" ? "M-6 0L0 -6L6 0L0 6Z" : "M-5 0H5M0 -5V5";
+  const shape =
+    kind === "vertex" || kind === "box" ? "M-5 -5H5V5H-5Z" : kind === "edge" ? "M-6 0L0 -6L6 0L0 6Z" : "M-5 0H5M0 -5V5";
   return (
     <g class="cursor" transform={`translate(${x} ${y})`}>
       <path d={shape} />

@@ -23,7 +23,13 @@ export function Parameters() {
         >
           As predicted
         </Button>
-        <Button kind="quiet" icon="reset" disabled={!changed} title="Back to what was found (r)" onClick={() => reset()}>
+        <Button
+          kind="quiet"
+          icon="reset"
+          disabled={!changed}
+          title="Back to what was found (r)"
+          onClick={() => reset()}
+        >
           As found
         </Button>
       </header>
@@ -54,14 +60,23 @@ function Row({ parameter }: { parameter: Parameter }) {
         <span class="label" title={name}>
           {words(name)}
         </span>
-        {!used && <span class="badge" title="With the other parameters as they are, this one changes nothing">no effect</span>}
+        {!used && (
+          <span class="badge" title="With the other parameters as they are, this one changes nothing">
+            no effect
+          </span>
+        )}
         {limited && (
           <span class="badge warn" title="It rests on the end of its Range: perhaps the Range ends too soon">
             at limit
           </span>
         )}
         {differs(name) && (
-          <Button kind="quiet" icon="reset" title={`${name} as found: ${shown(found?.parameters?.[name])}`} onClick={() => resetOne(name)} />
+          <Button
+            kind="quiet"
+            icon="reset"
+            title={`${name} as found: ${shown(found?.parameters?.[name])}`}
+            onClick={() => resetOne(name)}
+          />
         )}
         {kind === "scalar" && (
           <input
@@ -100,7 +115,11 @@ function Predicted({ parameter: { name, kind }, value }: { parameter: Parameter;
   if (value === null || !found) return null;
   const spread = found.spread?.[name];
   const likely = found.likelihood?.[name];
-  const best = likely && Object.entries(likely).sort(([, a], [, b]) => b - a).slice(0, 2);
+  const best =
+    likely &&
+    Object.entries(likely)
+      .sort(([, a], [, b]) => b - a)
+      .slice(0, 2);
   const sure = best && best[0] && best[0][1] > 0.995;
   return (
     <p class="prediction">

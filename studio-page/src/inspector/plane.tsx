@@ -16,9 +16,7 @@ export function Plane() {
   if (layout.value === "beside") {
     return (
       <div class="plane beside">
-        <Sheet>
-          {reference && <path class="ink" d={reference.path} />}
-        </Sheet>
+        <Sheet>{reference && <path class="ink" d={reference.path} />}</Sheet>
         <Sheet>{made && <path class={`ink ${stale}`} d={made.path} />}</Sheet>
       </div>
     );

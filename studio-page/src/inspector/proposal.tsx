@@ -27,9 +27,24 @@ export function Proposal({ length }: { length: Length }) {
   return (
     <div class="proposal">
       <div class="row">
-        <Select label="Parameter" options={ranged.map((one) => ({ value: one.name, label: one.name }))} value={name.value} onChange={(value) => (name.value = value)} />
-        <Select label="Measure" options={PARTS.map((value) => ({ value, label: value }))} value={part.value} onChange={(value) => (part.value = value)} />
-        <Select label="Units" options={units.value.map((one) => ({ value: one.name, label: one.name }))} value={unit.value} onChange={(value) => (unit.value = value)} />
+        <Select
+          label="Parameter"
+          options={ranged.map((one) => ({ value: one.name, label: one.name }))}
+          value={name.value}
+          onChange={(value) => (name.value = value)}
+        />
+        <Select
+          label="Measure"
+          options={PARTS.map((value) => ({ value, label: value }))}
+          value={part.value}
+          onChange={(value) => (part.value = value)}
+        />
+        <Select
+          label="Units"
+          options={units.value.map((one) => ({ value: one.name, label: one.name }))}
+          value={unit.value}
+          onChange={(value) => (unit.value = value)}
+        />
       </div>
       <p>
         <code>
@@ -48,7 +63,10 @@ export function Proposal({ length }: { length: Length }) {
         <Button icon="copy" onClick={() => void copy(line, "the Range")}>
           Copy
         </Button>
-        <Button disabled={same} onClick={() => void proposeRange(name.value, significant(low, 3), significant(high, 3))}>
+        <Button
+          disabled={same}
+          onClick={() => void proposeRange(name.value, significant(low, 3), significant(high, 3))}
+        >
           Put into the editor
         </Button>
       </div>

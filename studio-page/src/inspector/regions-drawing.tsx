@@ -8,7 +8,9 @@ import { reference } from "./session";
 import { drawn, stage } from "./showing";
 
 /** Each edge of a box joins two of its corners that differ in one direction. */
-const EDGES = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) => [1, 2, 4].filter((bit) => !(i & bit)).map((bit) => [i, i | bit] as const));
+const EDGES = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) =>
+  [1, 2, 4].filter((bit) => !(i & bit)).map((bit) => [i, i | bit] as const),
+);
 
 export function RegionsDrawing() {
   void drawn.value;

@@ -41,7 +41,12 @@ export const colouring = signal<Colouring>("plain");
 
 export const values = computed((): Values => {
   const defaults = Object.fromEntries(procedure.value.parameters.map((one) => [one.name, one.default]));
-  return { ...defaults, ...(reference.value?.parameters ?? {}), ...(outcome.value?.parameters ?? {}), ...(edited.value ?? {}) };
+  return {
+    ...defaults,
+    ...(reference.value?.parameters ?? {}),
+    ...(outcome.value?.parameters ?? {}),
+    ...(edited.value ?? {}),
+  };
 });
 export const active = computed(() => new Set(outcome.value?.active ?? reference.value?.active ?? []));
 export const atLimit = computed(() => new Set(outcome.value?.at_limit ?? reference.value?.at_limit ?? []));
@@ -66,7 +71,16 @@ function watch(next: Slug): () => void {
   const known = computed(() => {
     const tile = tileOf(next);
     const { digest, state } = procedure.value;
-    return [tile?.replica, tile?.distance, tile?.stage, tile?.stale, digest, state, connected.value, colouring.value].join();
+    return [
+      tile?.replica,
+      tile?.distance,
+      tile?.stage,
+      tile?.stale,
+      digest,
+      state,
+      connected.value,
+      colouring.value,
+    ].join();
   });
   return effect(() => {
     void known.value;
@@ -93,7 +107,8 @@ function note(next: Slug): (error: unknown) => void {
 }
 
 function ask(): void {
-  if (slug.value) waiting.value = evaluate(slug.value, edited.value, colouring.value === "distance" && dimension.value === 3);
+  if (slug.value)
+    waiting.value = evaluate(slug.value, edited.value, colouring.value === "distance" && dimension.value === 3);
 }
 
 export function set(name: string, value: Value): void {

@@ -4,6 +4,7 @@ import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { Color } from "three";
 import { theme } from "../state/theme";
+import { replicaShown } from "../viewer/diagnostics";
 import { blended, parts, plain } from "../viewer/paint";
 import { snap } from "../viewer/snapping";
 import { Stage } from "../viewer/stage";
@@ -67,6 +68,7 @@ const message = (side: Side): MeshMessage | null => {
 
 function showShape(open: Stage, side: Side): void {
   open.surfaces[side].show(message(side), plain("#bbbbbb"));
+  if (side === "replica") replicaShown();
   open.invalidate();
 }
 

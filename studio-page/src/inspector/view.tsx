@@ -56,7 +56,15 @@ export function Inspector({ slug }: { slug: Slug }) {
           {!flat && webgl.value && <MeasureCard />}
         </div>
         <div class="foot">
-          {flat ? layout.value === "over" ? <OverLegend /> : layout.value === "difference" && <DifferenceLegend /> : <Legend />}
+          {flat ? (
+            layout.value === "over" ? (
+              <OverLegend />
+            ) : (
+              layout.value === "difference" && <DifferenceLegend />
+            )
+          ) : (
+            <Legend />
+          )}
         </div>
       </div>
       <aside>
@@ -139,8 +147,16 @@ function InspectorKeys({ slug, step, close }: { slug: Slug; step: (by: number) =
     { keys: ["Escape"], does: "stop measuring; close", run: () => (tool.value === "off" ? close() : take("off")) },
     { keys: ["ArrowRight", "n"], does: "next", run: () => step(1) },
     { keys: ["ArrowLeft", "p"], does: "previous", run: () => step(-1) },
-    { keys: ["b"], does: "side by side, overlay", run: () => (layout.value = cycle<typeof layout.value>(layouts, layout.value)) },
-    { keys: ["v"], does: "plain, residual, parts", run: () => (colouring.value = cycle(["plain", "distance", "parts"], colouring.value)) },
+    {
+      keys: ["b"],
+      does: "side by side, overlay",
+      run: () => (layout.value = cycle<typeof layout.value>(layouts, layout.value)),
+    },
+    {
+      keys: ["v"],
+      does: "plain, residual, parts",
+      run: () => (colouring.value = cycle(["plain", "distance", "parts"], colouring.value)),
+    },
     { keys: ["r"], does: "parameters as found", run: () => reset() },
     { keys: ["m"], does: "measure a distance", run: () => take(tool.value === "distance" ? "off" : "distance") },
     { keys: ["a"], does: "measure an angle", run: () => take(tool.value === "angle" ? "off" : "angle") },

@@ -16,7 +16,9 @@ export function Curve({ curve, epochs }: { curve: Epoch[]; epochs: number }) {
   const x = (epoch: number) => LEFT + ((epoch - 1) / (end - 1)) * (WIDTH - LEFT - 8);
   const y = (loss: number) => 8 + (1 - loss / highest) * (HEIGHT - BOTTOM - 8);
   const path = (of: (epoch: Epoch) => number | null) =>
-    curve.flatMap((one) => (of(one) === null ? [] : [`${x(one.epoch).toFixed(1)} ${y(of(one)!).toFixed(1)}`])).join("L");
+    curve
+      .flatMap((one) => (of(one) === null ? [] : [`${x(one.epoch).toFixed(1)} ${y(of(one)!).toFixed(1)}`]))
+      .join("L");
   const held = path((one) => one.validation);
   return (
     <figure class="curve">

@@ -30,8 +30,18 @@ export function Settings() {
         on={now.fresh}
         onChange={(fresh) => void change({ fresh })}
       />
-      <Select label="Preset" options={options("fast", "paper")} value={now.preset} onChange={(preset) => void change({ preset })} />
-      <Select label="Search" options={options("off", "quick", "thorough")} value={now.refine} onChange={(refine) => void change({ refine })} />
+      <Select
+        label="Preset"
+        options={options("fast", "paper")}
+        value={now.preset}
+        onChange={(preset) => void change({ preset })}
+      />
+      <Select
+        label="Search"
+        options={options("off", "quick", "thorough")}
+        value={now.refine}
+        onChange={(refine) => void change({ refine })}
+      />
       {NUMBERS.map(({ name, label, title, whole }) => (
         <label key={name} class="field" title={title}>
           <span>{label}</span>

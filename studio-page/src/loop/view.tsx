@@ -25,7 +25,11 @@ export function LoopView() {
                 Cancel the fit
               </Button>
             ) : (
-              <Button disabled={procedure.value.state === "broken"} title="Learn anew, going on from nothing" onClick={() => fit(true)}>
+              <Button
+                disabled={procedure.value.state === "broken"}
+                title="Learn anew, going on from nothing"
+                onClick={() => fit(true)}
+              >
                 Fit afresh
               </Button>
             )}

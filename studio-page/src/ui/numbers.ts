@@ -38,7 +38,12 @@ export function plural(count: number, one: string, many = `${one}s`): string {
 }
 
 export function moment(iso: string): string {
-  return new Date(iso).toLocaleString(undefined, { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
+  return new Date(iso).toLocaleString(undefined, {
+    day: "numeric",
+    month: "short",
+    hour: "2-digit",
+    minute: "2-digit",
+  });
 }
 
 export function words(name: string): string {

@@ -26,7 +26,8 @@ export function snap(stage: Stage, x: number, y: number, snapping: Snapping): Sn
   const nearest = new Nearest(stage, side, x, y);
   const { positions } = surface.triangles;
   if (snapping.vertex) {
-    for (let i = 0; i < positions.length; i += 3) nearest.point(new Vector3().fromArray(positions, i), REACH.vertex, "vertex", wall);
+    for (let i = 0; i < positions.length; i += 3)
+      nearest.point(new Vector3().fromArray(positions, i), REACH.vertex, "vertex", wall);
   }
   if (snapping.box) for (const corner of corners(bounds(positions))) nearest.point(corner, REACH.box, "box", Infinity);
   if (!nearest.found && snapping.edge) {
@@ -35,7 +36,8 @@ export function snap(stage: Stage, x: number, y: number, snapping: Snapping): Sn
       nearest.segment(new Vector3().fromArray(segments, i), new Vector3().fromArray(segments, i + 3), "edge", wall);
     }
   }
-  if (!nearest.found && snapping.box && !hit) for (const [a, b] of boxEdges(bounds(positions))) nearest.segment(a, b, "box", Infinity);
+  if (!nearest.found && snapping.box && !hit)
+    for (const [a, b] of boxEdges(bounds(positions))) nearest.segment(a, b, "box", Infinity);
   return nearest.found ?? (hit && { point: hit, kind: "surface", side });
 }
 
@@ -89,6 +91,8 @@ function corners({ min, max }: Box3): Vector3[] {
 
 export function boxEdges(box: Box3): [Vector3, Vector3][] {
   const at = corners(box);
-  const pairs = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) => [1, 2, 4].filter((bit) => !(i & bit)).map((bit) => [i, i | bit] as const));
+  const pairs = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) =>
+    [1, 2, 4].filter((bit) => !(i & bit)).map((bit) => [i, i | bit] as const),
+  );
   return pairs.map(([i, j]) => [at[i]!, at[j]!]);
 }

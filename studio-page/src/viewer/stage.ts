@@ -4,7 +4,6 @@
  */
 
 import {
-
   DirectionalLight,
   HemisphereLight,
   PerspectiveCamera,
@@ -206,4 +205,3 @@ export class Stage {
     this.draw();
   }
 }
-

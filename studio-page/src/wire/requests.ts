@@ -33,7 +33,11 @@ async function answer(path: string, init?: RequestInit): Promise<Response> {
   }
   if (response.ok) return response;
   const body = (await response.json().catch(() => ({}))) as Record<string, unknown>;
-  throw new RequestError(typeof body.error === "string" ? body.error : `${response.status} ${path}`, response.status, body);
+  throw new RequestError(
+    typeof body.error === "string" ? body.error : `${response.status} ${path}`,
+    response.status,
+    body,
+  );
 }
 
 async function get<T>(path: string): Promise<T> {
