@@ -215,8 +215,8 @@ def test_linked_run_outside_is_refused(running: Studio) -> None:
     (running.folder / "runs").mkdir(exist_ok=True)
     (running.folder / "runs" / "900").symlink_to(outside)
     (outside / "procedure.py").write_text("secret")
-    for path in ("files/x.png", "report.html", ""):
-        assert running.request("GET", f"/api/runs/900/{path}")[0] == 404
+    for path in ("/files/x.png", "/report.html", ""):
+        assert running.request("GET", f"/api/runs/900{path}")[0] == 404
     assert running.request("POST", "/api/runs/900/restore", {"digest": None})[0] == 404
     (running.folder / "runs" / "900").unlink()
 

@@ -72,14 +72,21 @@ def explanation(session: Session) -> dict[str, Any]:
     references = found.get("references", {})
     suggestions = [_suggestion(each, run, slugs) for each in found.get("suggestions", [])]
     named = {slugs[name]: told for name, told in references.items() if name in slugs}
-    return {**found, "references": named, "suggestions": suggestions}
+    summary = [{**each, **_by_slug(each, slugs)} for each in found.get("summary", [])]
+    return {**found, "references": named, "suggestions": suggestions, "summary": summary}
 
 
 def _suggestion(given: Mapping[str, Any], run: Path, slugs: Mapping[str, str]) -> dict[str, Any]:
     picture = given.get("picture")
     address = f"/api/runs/{quote(run.name)}/files/{quote(picture)}" if picture else None
-    references = [slugs[name] for name in given.get("references", []) if name in slugs]
-    return {**_OF_SUGGESTIONS, **given, "picture": address, "references": references}
+    return {**_OF_SUGGESTIONS, **given, "picture": address, **_by_slug(given, slugs)}
+
+
+def _by_slug(given: Mapping[str, Any], slugs: Mapping[str, str]) -> dict[str, Any]:
+    """The references that something is about."""
+    named = [slugs[name] for name in given.get("references", []) if name in slugs]
+    chosen = given.get("representative")
+    return {"references": named} | ({"representative": slugs.get(chosen)} if chosen is not None else {})
 
 
 def _known(values: Mapping[str, Any] | None, names: set[str]) -> dict[str, Any] | None:

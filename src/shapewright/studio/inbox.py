@@ -40,8 +40,8 @@ class Inbox:
 
     @property
     def outdated(self) -> bool:
-        """Whether what is being answered is no longer what anyone waits for; fetches can wait."""
-        return bool(self._live) or any(request["do"] != "fetch" for request in list(self._others))
+        """Whether what is being answered is no longer what anyone waits for."""
+        return bool(self._live) or any(request["do"] in ("load", "end") for request in list(self._others))
 
     def take(self, wait: bool) -> Request | None:
         """The next request; without one wait for it, or return None."""

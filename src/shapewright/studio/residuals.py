@@ -47,16 +47,23 @@ def scale(distances: Floats) -> Floats:
 
 
 def refined(mesh: Mesh, longest: float = _LONGEST) -> Mesh:
-    """The same surface in triangles whose edges are at most ``longest``, unless these would be more than _MOST.
+    """The same surface in triangles whose edges are at most ``longest``, as far as _MOST triangles allow.
 
-    Triangles are halved at the middle of their longest edge, and vertices at the same place become one.
+    Triangles are halved at the middle of their longest edge, the largest first; a mesh of very many may become a
+    quarter more. Vertices at the same place become one.
     """
     triangles = mesh.triangles
+    most = max(_MOST, len(triangles) * 5 // 4)
     while True:
         squared = ((triangles - np.roll(triangles, -1, axis=1)) ** 2).sum(axis=2)
-        long = squared.max(axis=1) > longest**2
-        if not long.any() or len(triangles) + int(long.sum()) > _MOST:
+        length = squared.max(axis=1)
+        long = length > longest**2
+        left = most - len(triangles)
+        if not long.any() or left <= 0:
             break
+        if int(long.sum()) > left:
+            long = np.zeros(len(triangles), dtype=bool)
+            long[np.argpartition(-length, left - 1)[:left]] = True
         rows = np.arange(int(long.sum()))
         edge = squared[long].argmax(axis=1)
         cut = triangles[long]
