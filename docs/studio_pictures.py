@@ -28,7 +28,6 @@ PICTURES = ROOT / "docs" / "pictures" / "studio"
 VERSIONS = ("v1", "v2", "v4")
 SETTINGS = ("--samples", "1500", "--epochs", "10", "--workers", "1")
 SIZE = {"width": 1280, "height": 800}
-COLOURS = 160
 
 
 def collection(visit: Visit) -> None:
@@ -58,6 +57,8 @@ def measure(visit: Visit) -> None:
     width, height, depth = (side / max(size) / 2 for side in size)
     visit.click_at("reference", (-width, height, depth))
     visit.click_at("reference", (width, -height, depth))
+    visit.page.mouse.move(0, 0)
+    visit.page.click("text=Propose as Range")
 
 
 def loop(visit: Visit) -> None:
@@ -130,7 +131,7 @@ def take(started: Studio, browser: Any, name: str) -> None:
     picture = Image.open(io.BytesIO(visit.page.screenshot())).convert("RGB")
     visit.end()
     PICTURES.mkdir(parents=True, exist_ok=True)
-    small = picture.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    small = picture.quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     small.save(PICTURES / f"{name}.png", optimize=True)
 
 

@@ -19,9 +19,12 @@ export function MeasureCard() {
   const hint = complete.value ? null : HINTS[tool.value][points.value.length];
   const ranged = procedure.value.parameters.some(({ kind }) => kind === "scalar" || kind === "integer");
   return (
-    <div class="measure-card" role="region" aria-label="Measure">
+    <section class="measure-card" aria-label="Measure">
       <header>
         <h3>{tool.value === "angle" ? "Angle" : "Distance"}</h3>
+        <Button kind="quiet" icon="close" title="Stop measuring (Esc)" onClick={() => take("off")} />
+      </header>
+      <div class="row">
         <span class="soft">Snap to</span>
         {(["vertex", "edge", "box"] as const).map((kind) => (
           <Toggle
@@ -31,8 +34,7 @@ export function MeasureCard() {
             onChange={(on) => (snapping.value = { ...snapping.value, [kind]: on })}
           />
         ))}
-        <Button kind="quiet" icon="close" title="Stop measuring (Esc)" onClick={() => take("off")} />
-      </header>
+      </div>
       {hint && <p class="soft">{hint}</p>}
       {length.value && <Lengths />}
       {degrees.value !== null && <output class="angle">{degrees.value.toFixed(2)}°</output>}
@@ -49,7 +51,7 @@ export function MeasureCard() {
         </div>
       )}
       {length.value && proposing.value && <Proposal length={length.value} />}
-    </div>
+    </section>
   );
 }
 

@@ -53,7 +53,6 @@ export function Inspector({ slug }: { slug: Slug }) {
         <div class="shapes">
           {flat ? <Plane /> : webgl.value ? <Space onFail={() => (webgl.value = false)} /> : <Pictures />}
           <Captions />
-          {!flat && webgl.value && <MeasureCard />}
         </div>
         <div class="foot">
           {flat ? (
@@ -74,6 +73,7 @@ export function Inspector({ slug }: { slug: Slug }) {
           <Button kind="quiet" icon="right" title="Next (→)" onClick={() => step(1)} />
           <Button kind="quiet" icon="close" title="Close (Esc)" onClick={close} />
         </header>
+        {!flat && webgl.value && <MeasureCard />}
         <Figures />
         <Parameters />
         <Causes />

@@ -13,7 +13,7 @@ export function significant(value: number, digits = 4): string {
   if (value === 0) return "0";
   const size = Math.abs(value);
   if (size >= 10 ** digits) return value.toFixed(0);
-  if (size < 10 ** -digits) return value.toExponential(1);
+  if (size < 1e-4) return value.toExponential(1);
   return String(Number(value.toPrecision(digits)));
 }
 

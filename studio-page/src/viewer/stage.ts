@@ -39,7 +39,7 @@ export type View = keyof typeof VIEWS;
 
 // Seen as in the thumbnails, so that a shape does not turn when it is opened; a little nearer.
 const FIELD_OF_VIEW = 27.5;
-const DISTANCE = 3.1;
+const DISTANCE = 3.25;
 
 export class Stage {
   readonly canvas = document.createElement("canvas");
