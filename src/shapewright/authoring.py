@@ -19,13 +19,14 @@ from numpy.typing import NDArray
 from shapewright.building import Build, Workers
 from shapewright.comparison.grouping import Group
 from shapewright.iteration import Iteration, draw_pictures
-from shapewright.judge import Judge
+from shapewright.judge import Judge, judge_of
 from shapewright.learning import Lesson, learn, learn_more, limits_of
 from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.picture_judge import PictureJudge
 from shapewright.prediction.adaptive import around
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.lookup import nearest
-from shapewright.prediction.refinement import QUICK, THOROUGH, refine
+from shapewright.prediction.refinement import refine
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.records import to_record
@@ -33,7 +34,6 @@ from shapewright.references import Collection
 from shapewright.rendering.raster import render
 from shapewright.results import Result, at_limit
 from shapewright.settings import Settings
-from shapewright.shapes import Mesh
 
 _NEAR = 0.5
 """Share of the threshold up to which parameters that were carried over are left as they are."""
@@ -64,9 +64,10 @@ def fit(
             answer = {name: values for name, values in zip(references.names, known, strict=True) if values}
             stages.answer(answer, "carried over")
         watch = None if previous else partial(_first_answer, references, stages, settings)
-        lesson = learn(procedure, crew, settings, stages, previous.predictor if previous else None, watch)
+        predictor = previous.predictor if previous else None
+        lesson = learn(procedure, crew, settings, stages, predictor, watch, references.kind)
         stages.begin("describe", len(references))
-        judge = Judge.of(references, settings, cache)
+        judge = judge_of(references, settings, cache)
         found = _Found.none(len(references))
         if previous:
             found = _try(crew, judge, [values or procedure.space.defaults for values in known], found)
@@ -80,12 +81,13 @@ def fit(
     builds, distances, predictor = [build for build in found.builds if build], found.distances, lesson.predictor
     stages.begin("compare", len(references))
     groups = judge.groups(distances)
-    results = _results(procedure, references, builds, distances, judge.overlaps(builds), groups, settings.threshold)
+    results = _results(procedure, references, builds, distances, judge.overlaps(builds), groups, judge.metric.threshold)
     stages.begin("picture", 1)
     pictures = draw_pictures(results, settings.workers)
     stages.end()
     return Iteration(
         results=results,
+        metric=judge.metric,
         groups=groups,
         settings=settings,
         seconds=stages.seconds,
@@ -145,7 +147,7 @@ def _first_answer(references: Collection, stages: Stages, settings: Settings, sa
 def _replicate(
     procedure: Procedure,
     crew: Workers,
-    judge: Judge,
+    judge: Judge | PictureJudge,
     lesson: Lesson,
     settings: Settings,
     stages: Stages,
@@ -158,7 +160,7 @@ def _replicate(
     stages.begin("replicate", 1)
     # Of what was found before only that is searched on which is not near yet.
     known = [build.parameters if build else None for build in found.builds]
-    rows = np.flatnonzero(~(found.distances <= _NEAR * settings.threshold))
+    rows = np.flatnonzero(~(found.distances <= _NEAR * judge.metric.threshold))
     found = _try(crew, judge, predicted, found)
     stages.answer(dict(zip(judge.references.names, found.parameters(predicted), strict=True)), "predicted")
     if settings.refine == "off" or not len(rows):
@@ -168,10 +170,11 @@ def _replicate(
         procedure.space,
         [column[rows] for column in inferred],
         crew,
-        lambda pairs: judge.search_costs([(int(rows[i]), mesh) for i, mesh in pairs]),
-        QUICK if settings.refine == "quick" else THOROUGH,
+        lambda pairs: judge.search_residuals([(int(rows[i]), shape) for i, shape in pairs]),
+        lesson.budget(settings),
         settings.seed,
         [known[i] for i in rows],
+        judge.goal,
         stages.step,
     )
     vectors = found.parameters(predicted)
@@ -180,7 +183,7 @@ def _replicate(
     return _try(crew, judge, vectors, found)
 
 
-def _try(crew: Workers, judge: Judge, vectors: Sequence[Parameters], found: _Found) -> _Found:
+def _try(crew: Workers, judge: Judge | PictureJudge, vectors: Sequence[Parameters], found: _Found) -> _Found:
     """Build one vector for each reference, and keep it where it is nearer than what was found before."""
     builds = crew.build(vectors)
     distances = judge.distances(builds)
@@ -206,8 +209,8 @@ def _results(
             path=reference.path,
             parameters=build.parameters,
             active=procedure.space.active(build.parameters),
-            at_limit=at_limit(procedure.space, build.parameters) if isinstance(build.shape, Mesh) else (),
-            replica=build.shape if isinstance(build.shape, Mesh) else None,
+            at_limit=at_limit(procedure.space, build.parameters) if build.shape else (),
+            replica=build.shape,
             distance=float(distance),
             iou=float(iou),
             chamfer=float(surface),

@@ -17,12 +17,14 @@ from shapewright.options import (
     Cameras,
     Device,
     Epochs,
+    Front,
     Json,
     Preset,
     ProcedureArgument,
     Refine,
     Samples,
     Seed,
+    Up,
     Views,
     Workers,
 )
@@ -88,14 +90,15 @@ def fit(
         typer.Option("--from", help="A run of an earlier version to go on from: quicker, and what was found stays."),
     ] = None,
     device: Device = "auto",
-    threshold: Annotated[float, typer.Option(help="Largest distance of a compatible reference.")] = Settings.threshold,
+    threshold: Annotated[float, typer.Option(help="Largest distance of a compatible mesh.")] = Settings.threshold,
+    fidelity: Annotated[
+        float, typer.Option(help="Least visual information fidelity of a compatible drawing.")
+    ] = Settings.fidelity,
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
     ] = "free",
-    up: Annotated[str, typer.Option(help="The axis of the files that points up: x, y, z, -x, -y, -z.")] = "y",
-    front: Annotated[
-        str | None, typer.Option(help="The axis that points to the front.  [dim]default: z, or -y where up is z[/]")
-    ] = None,
+    up: Up = "y",
+    front: Front = None,
     time_limit: Annotated[float, typer.Option(help="Seconds that building one shape may take.")] = 10.0,
     memory_limit: Annotated[int, typer.Option(help="Megabytes that building one shape may take.")] = 2048,
     workers: Workers = None,
@@ -114,6 +117,7 @@ def fit(
         rounds=rounds,
         device=device,
         threshold=threshold,
+        fidelity=fidelity,
         align=align,
         shape_seconds=time_limit,
         shape_memory_mb=memory_limit,
@@ -199,6 +203,32 @@ def sample(
     else:
         unsound = f", {samples.unsound} of them unsound," if samples.unsound else ""
         out.print(f"{samples.shapes} shapes{unsound} and {MANIFEST} in {escape(str(out_dir))}", highlight=False)
+
+
+@app.command()
+def silhouettes(
+    references: Annotated[str, typer.Argument(help="Meshes: a folder, a glob in quotes, a CSV manifest, or a file.")],
+    out_dir: Annotated[Path, typer.Option("--out", help="Folder for the drawings.")],
+    view: Annotated[Literal["front", "side", "top"], typer.Option(help="Where they are seen from.")] = "front",
+    format: Annotated[Literal["svg", "png"], typer.Option(help="Kind of file.")] = "svg",
+    up: Up = "y",
+    front: Front = None,
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Write silhouettes of meshes as drawings, which procedures that draw can be fitted to."""
+    from shapewright.console import print_json
+    from shapewright.silhouettes import write_silhouettes
+
+    loaded = _load(references, up, front)
+    skipped = {str(path): reason for path, reason in loaded.skipped.items()}
+    paths, unseen = write_silhouettes(loaded, out_dir.absolute(), view, format, workers)
+    for name, reason in (skipped | unseen).items():
+        err.print(f"[yellow]skipped[/] {escape(name)}: {escape(reason)}", highlight=False, soft_wrap=True)
+    if json:
+        print_json({"out": str(out_dir.absolute()), "drawings": len(paths), "skipped": skipped | unseen})
+    else:
+        out.print(f"{len(paths)} drawings in {escape(str(out_dir))}", highlight=False)
 
 
 @app.command()

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.judge import Judge
+from shapewright.judge import judge_of
 from shapewright.learning import Lesson, learn, limits_of
 from shapewright.prediction.evaluation import Metrics, score
-from shapewright.prediction.refinement import QUICK, THOROUGH, refine
+from shapewright.prediction.refinement import refine
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
@@ -69,12 +69,14 @@ def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, 
 def _refined(procedure: Procedure, crew: Workers, lesson: Lesson, settings: Settings, stages: Stages) -> Metrics:
     """The metrics after refinement, on the first REFINED held-out rows."""
     held_out = lesson.held_out.take(np.arange(min(REFINED, len(lesson.held_out))))
-    shapes = Collection.of({f"{i:03d}": mesh for i, mesh in enumerate(held_out.meshes)})
-    judge = Judge.of(shapes, settings)
-    inferred = lesson.predictor.infer(held_out.meshes)
-    budget = QUICK if settings.refine == "quick" else THOROUGH
-    stages.begin("refine", len(budget.rungs))
-    found = refine(procedure.space, inferred, crew, judge.search_costs, budget, settings.seed, progress=stages.step)
+    shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
+    judge = judge_of(shapes, settings)
+    inferred = lesson.predictor.infer(held_out.shapes)
+    stages.begin("refine", 1)
+    budget, measure = lesson.budget(settings), judge.search_residuals
+    found = refine(
+        procedure.space, inferred, crew, measure, budget, settings.seed, goal=judge.goal, progress=stages.step
+    )
     encoded = np.array([procedure.space.encode(values) for values in found], dtype=np.float32)
     answers = [
         np.eye(parameter.classes, dtype=np.float32)[encoded[:, i].astype(int)] if parameter.classes else encoded[:, i]

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal, TypedDict
+from typing import Literal, TypedDict
 
-import numpy as np
-
-from shapewright.comparison import light_field
+from shapewright.comparison import light_field, outline
+from shapewright.comparison.pictures import intersection_over_union as overlap
+from shapewright.comparison.pictures import visual_information_fidelity
 from shapewright.comparison.silhouettes import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
 from shapewright.references.collection import Reference
-from shapewright.shapes import Mesh
-from shapewright.studio.built import Built
-from shapewright.studio.frames import binary
+from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.studio.nearness import NearSurface
-from shapewright.studio.residuals import LIMIT, Residual, refined, residual
+from shapewright.studio.residuals import Residual, refined, residual
 
 
 class Measures(TypedDict):
@@ -30,44 +28,45 @@ class Measures(TypedDict):
 NOTHING: Measures = {"distance": None, "iou": None, "chamfer": None}
 
 
-class Target:
-    """A reference to measure replicas against, as the judge does; all meshes here are normalised."""
+class MeshTarget:
+    """A mesh to measure replicas against, as the judge does; all meshes here are normalised."""
 
-    def __init__(self, reference: Reference, align: light_field.Align, cache: Path | None) -> None:
-        self.reference = reference
+    def __init__(self, mesh: Mesh, align: light_field.Align, cache: Path | None) -> None:
+        self.shape = mesh
         self._align: light_field.Align = align
         self._cache = cache
 
     @cached_property
     def _descriptor(self) -> light_field.Descriptor | None:
         try:
-            return light_field.descriptor(self.reference.shape, cache=self._cache)
+            return light_field.descriptor(self.shape, cache=self._cache)
         except ValueError:
             return None
 
     @cached_property
     def _surface(self) -> NearSurface:
-        return NearSurface(self.reference.shape)
+        return NearSurface(self.shape)
 
     @cached_property
     def _refined(self) -> Mesh:
-        return refined(self.reference.shape)
+        return refined(self.shape)
 
-    def distance(self, replica: Mesh) -> float | None:
-        """Normalised light-field distance; None where no view shows one of the two."""
+    def distance(self, replica: Shape) -> float | None:
+        """Normalised light-field distance; None for a drawing, and where no view shows one of the two."""
         try:
             theirs = self._descriptor
-            return light_field.distance(theirs, replica, self._align) if theirs else None
+            measurable = theirs and isinstance(replica, Mesh)
+            return light_field.distance(theirs, replica, self._align) if measurable else None  # type: ignore[arg-type]
         except ValueError:
             return None
 
-    def measures(self, replica: Mesh) -> Measures:
+    def measures(self, replica: Shape) -> Measures:
         """All that the judge measures."""
         distance = self.distance(replica)
-        if distance is None:
+        if distance is None or not isinstance(replica, Mesh):
             return NOTHING
-        iou = intersection_over_union([self.reference.shape], [replica], threads=1)
-        return {"distance": distance, "iou": float(iou[0]), "chamfer": chamfer(self.reference.shape, replica)}
+        iou = intersection_over_union([self.shape], [replica], threads=1)
+        return {"distance": distance, "iou": float(iou[0]), "chamfer": chamfer(self.shape, replica)}
 
     def residuals(self, replica: Mesh) -> dict[Literal["replica", "reference"], Residual]:
         """Of the replica against the reference, and of the reference against the replica."""
@@ -77,54 +76,34 @@ class Target:
         }
 
 
-def about(reference: Reference) -> dict[str, Any]:
-    """What the page tells of a reference: its triangles, notes, and the way back to its own units and axes."""
-    extent = reference.orientation.invert(reference.shape.extent / reference.transform.scale)
-    return {
-        "triangles": len(reference.shape.faces),
-        "notes": list(reference.notes),
-        "units": {
-            "centre": list(reference.transform.centre),
-            "scale": reference.transform.scale,
-            "axes": reference.orientation.matrix.tolist(),
-            "size": np.abs(extent).tolist(),
-        },
-    }
+class DrawingTarget:
+    """A drawing to measure replicas against, as the judge of drawings does."""
+
+    def __init__(self, drawing: Drawing) -> None:
+        self.shape = drawing
+
+    @cached_property
+    def _seen(self) -> bool:
+        return bool(outline.silhouette(self.shape).any())
+
+    def distance(self, replica: Shape) -> float | None:
+        """One less the visual information fidelity; None for a mesh, and where one of them is too thin to be seen."""
+        if not (self._seen and isinstance(replica, Drawing) and outline.silhouette(replica).any()):
+            return None
+        return max(0.0, 1.0 - visual_information_fidelity(self.shape, replica))
+
+    def measures(self, replica: Shape) -> Measures:
+        """All that the judge measures."""
+        distance = self.distance(replica)
+        if distance is None or not isinstance(replica, Drawing):
+            return NOTHING
+        return {"distance": distance, "iou": overlap(self.shape, replica), "chamfer": None}
 
 
-def replica_header(built: Built) -> dict[str, Any]:
-    """What the message of a replica says of it."""
-    shape = built.build.shape
-    assert isinstance(shape, Mesh)
-    return {
-        "shape": "replica",
-        "parameters": built.build.parameters,
-        "active": list(built.active),
-        "at_limit": list(built.at_limit),
-        "units": {"size": shape.extent.tolist()},
-        "milliseconds": round(1000.0 * built.build.seconds, 2),
-    }
+Target = MeshTarget | DrawingTarget
 
 
-def mesh_message(mesh: Mesh, header: dict[str, Any]) -> bytes:
-    """The binary message ``mesh``; its vertices are those of ``mesh`` as they are."""
-    buffers: dict[str, Any] = {
-        "positions": mesh.vertices.astype(np.float32).ravel(),
-        "indices": mesh.faces.astype(np.uint32).ravel(),
-    }
-    if mesh.face_labels is not None:
-        buffers["labels"] = mesh.face_labels.astype(np.int32)
-    counts = {"vertices": len(mesh.vertices), "triangles": len(mesh.faces)}
-    return binary({"type": "mesh", **header, **counts, "label_names": list(mesh.label_names)}, buffers)
-
-
-def residual_message(found: Residual, header: dict[str, Any]) -> bytes:
-    """The binary message ``residuals``."""
-    counts = {"vertices": len(found.vertices), "triangles": len(found.faces)}
-    buffers = {
-        "positions": found.vertices.astype(np.float32).ravel(),
-        "indices": found.faces.astype(np.uint32).ravel(),
-        "colours": found.colours.astype(np.float32).ravel(),
-        "distances": found.distances.astype(np.float32),
-    }
-    return binary({"type": "residuals", **header, **counts, "signed": found.signed, "limit": LIMIT}, buffers)
+def target_of(reference: Reference, align: light_field.Align, cache: Path | None) -> Target:
+    """A reference to measure against. align, cache: see light_field."""
+    shape = reference.shape
+    return MeshTarget(shape, align, cache) if isinstance(shape, Mesh) else DrawingTarget(shape)

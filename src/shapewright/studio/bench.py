@@ -20,14 +20,15 @@ from shapewright.building.outcomes import Limits
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.thumbnails import thumbnail
-from shapewright.shapes import Mesh
-from shapewright.studio.appraisal import NOTHING, Target, about, mesh_message, replica_header, residual_message
+from shapewright.shapes import Drawing, Mesh, Shape
+from shapewright.studio.appraisal import NOTHING, MeshTarget, Target, target_of
 from shapewright.studio.frames import write_envelope
 from shapewright.studio.gallery import Gallery, Shelf, shape_bytes
 from shapewright.studio.inbox import Inbox, Request
 from shapewright.studio.listing import Listing, Origin, listing
 from shapewright.studio.problems import of_failure
 from shapewright.studio.sweep import Sweep
+from shapewright.studio.telling import about, drawing_message, mesh_message, replica_header, residual_message
 from shapewright.studio.workshop import Broken, Workshop
 
 _MEMORY = 24 * 2**20
@@ -138,7 +139,7 @@ class Bench:
             return None
 
     def _new_target(self, slug: str) -> Target:
-        return Target(self._gallery[slug], self._align, self._cache)
+        return target_of(self._gallery[slug], self._align, self._cache)
 
     def _evaluate(self, request: Request) -> None:
         """Answer in steps; the later ones are left out when something newer waits."""
@@ -163,14 +164,20 @@ class Bench:
             active = list(built.active) or None
             answer({"type": "failed", **case, "problem": found.record(), "active": active})
             return
-        assert isinstance(made.shape, Mesh)
-        replica = made.shape.normalised()
-        answer(None, mesh_message(replica, {**case, **replica_header(built)}))
+        assert made.shape is not None
+        replica, header = made.shape.normalised(), {**case, **replica_header(built)}
+        target = self._target(request["slug"]) if request["slug"] is not None else None
+        if isinstance(replica, Mesh):
+            answer(None, mesh_message(replica, header))
+        else:
+            reference = target.shape if target and isinstance(target.shape, Drawing) else None
+            answer(drawing_message(replica, reference, header))
         if request["slug"] is None or self._inbox.outdated:
             return
-        target = self._target(request["slug"])
         answer({"type": "distance", **case, **(target.measures(replica) if target else NOTHING)})
-        if not target or not request["residuals"] or self._inbox.outdated:
+        if not request["residuals"] or self._inbox.outdated:
+            return
+        if not isinstance(target, MeshTarget) or not isinstance(replica, Mesh):
             return
         for side, residual in target.residuals(replica).items():
             answer(None, residual_message(residual, {**case, "shape": side}))
@@ -183,7 +190,11 @@ class Bench:
             if request["what"] == "about":
                 message = about(reference)
             elif request["what"] == "shape":
-                payload = mesh_message(reference.shape, {"id": 0, "slug": request["slug"], "shape": "reference"})
+                header = {"id": 0, "slug": request["slug"], "shape": "reference"}
+                if isinstance(reference.shape, Mesh):
+                    payload = mesh_message(reference.shape, header)
+                else:
+                    message = drawing_message(reference.shape, None, header)
             else:
                 shape = self._replica(request) if request["parameters"] is not None else reference.shape
                 camera = replace(THUMBNAIL, azimuth=request["azimuth"], elevation=request["elevation"])
@@ -192,15 +203,15 @@ class Bench:
             message = {"error": str(error)}
         write_envelope(self._answers, {"to": "reply", "request": request["request"], "message": message}, payload)
 
-    def _replica(self, request: Request) -> Mesh:
+    def _replica(self, request: Request) -> Shape:
         built = self._workshop.build(request["parameters"]) if self._workshop.open else None
-        if built is None or not isinstance(built.build.shape, Mesh):
+        if built is None or built.build.shape is None:
             raise ValueError("there is no replica")
         return built.build.shape
 
 
 def _bytes(target: Target) -> int:
-    return 3 * shape_bytes(target.reference.shape)
+    return 3 * shape_bytes(target.shape)
 
 
 def main() -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
+from shapewright.metric import Metric, light_field
 from shapewright.parameters import Parameters
 from shapewright.report.report import colour
 from shapewright.settings import Settings
@@ -39,7 +40,7 @@ class Tile:
     at_limit: tuple[str, ...] = ()
     problem: Problem | None = None
 
-    def record(self, threshold: float) -> dict[str, Any]:
+    def record(self, metric: Metric) -> dict[str, Any]:
         """As the page gets it."""
         shown = (
             "slug",
@@ -55,7 +56,7 @@ class Tile:
         )
         return {
             **{name: getattr(self, name) for name in shown},
-            "colour": tint(self.distance, threshold),
+            "colour": tint(self.distance, metric),
             "at_limit": list(self.at_limit),
             "problem": self.problem.record() if self.problem else None,
         }
@@ -68,18 +69,19 @@ class Board:
     tiles: dict[str, Tile] = field(default_factory=dict)
     groups: tuple[Record, ...] = ()
     run: str | None = None
-    threshold: float = Settings.threshold
+    metric: Metric = field(default_factory=lambda: light_field(Settings.threshold))
     skipped: Mapping[str, str] = field(default_factory=dict)
 
     def record(self) -> dict[str, Any]:
         """The page's ``Collection``."""
         return {
             "run": self.run,
-            "threshold": self.threshold,
-            "measure": "light-field distance",
+            "threshold": self.metric.threshold,
+            "measure": self.metric.name,
+            "criterion": self.metric.criterion,
             "count": len(self.tiles),
             "compatible": sum(tile.compatible for tile in self.tiles.values()),
-            "tiles": [tile.record(self.threshold) for tile in self.tiles.values()],
+            "tiles": [tile.record(self.metric) for tile in self.tiles.values()],
             "groups": list(self.groups),
             "skipped": [{"path": path, "reason": reason} for path, reason in self.skipped.items()],
         }
@@ -88,7 +90,7 @@ class Board:
         """A tile changed; compatible follows the distance."""
         if "distance" in changes:
             distance = changes["distance"]
-            changes["compatible"] = distance is not None and distance <= self.threshold
+            changes["compatible"] = distance is not None and distance <= self.metric.threshold
         self.tiles[slug] = replace(self.tiles[slug], **changes)
         return self
 
@@ -117,12 +119,12 @@ def lay_out(
     record: Record | None = None,
     folder: Path | None = None,
     previous: Record | None = None,
-    threshold: float = Settings.threshold,
+    metric: Metric | None = None,
 ) -> Board:
     """The board of a listing, as far as a run knows its references.
 
     kept: addresses of the references' pictures, None where there is none yet. record, folder: of the run. previous:
-    record of the run before.
+    record of the run before. metric: of a board without a run.
     """
     known = {entry["name"]: entry for entry in record["references"]} if record else {}
     before = {entry["name"]: entry["distance"] for entry in previous["references"]} if previous else {}
@@ -138,14 +140,19 @@ def lay_out(
         tiles,
         tuple(_groups(record["groups"], slugs)) if record else (),
         folder.name if folder else None,
-        record["threshold"] if record else threshold,
+        metric_of(record) if record else metric or light_field(Settings.threshold),
         skipped,
     )
 
 
-def tint(distance: float | None, threshold: float) -> str | None:
+def tint(distance: float | None, metric: Metric) -> str | None:
     """The colour of a distance, None for none."""
-    return None if distance is None else colour(distance, threshold)
+    return None if distance is None else colour(distance, metric.threshold, metric.far / metric.threshold)
+
+
+def metric_of(record: Record) -> Metric:
+    """What a run measured by."""
+    return Metric(**record["metric"]) if "metric" in record else light_field(record["threshold"])
 
 
 def _filled(tile: Tile, entry: Record, pictures: Pictures, folder: Path) -> Tile:

@@ -36,7 +36,7 @@ def reference(session: Session, slug: str, about: Mapping[str, Any]) -> dict[str
         **about,
         "active": list(tile.active),
         "at_limit": list(tile.at_limit),
-        "colour": tint(tile.distance, board.threshold),
+        "colour": tint(tile.distance, board.metric),
         "problem": tile.problem.record() if tile.problem else None,
         **{key: _known(predicted.get(key), names) for key in ("predicted", "spread", "likelihood")},
         "explanation": explanation(session)["references"].get(slug) if session.explained else None,
@@ -50,7 +50,7 @@ def run_detail(session: Session, name: str) -> dict[str, Any]:
     record = read_record(folder)
     return {
         "run": next(run for run in session.runs() if run["run"] == name),
-        "collection": showing.laid_out(folder, record["threshold"]).record(),
+        "collection": showing.laid_out(folder, session.metric).record(),
         "source": source_of(folder),
         "parameters": record["procedure"]["parameters"],
         "settings": record["settings"],

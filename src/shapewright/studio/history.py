@@ -10,7 +10,7 @@ from typing import Any
 
 from shapewright.report import compare
 from shapewright.report.comparison import Move
-from shapewright.studio.board import tint
+from shapewright.studio.board import metric_of, tint
 from shapewright.workspace import RECORD, RunError, read_record
 
 EXPLANATION = "explanation.json"
@@ -69,8 +69,8 @@ def comparison(before: Path, after: Path, slugs: Mapping[str, str], address: Add
             "slug": slugs.get(move.name),
             "before": move.before,
             "after": move.after,
-            "colour_before": tint(move.before, old["threshold"]),
-            "colour_after": tint(move.after, new["threshold"]),
+            "colour_before": tint(move.before, metric_of(old)),
+            "colour_after": tint(move.after, metric_of(new)),
             "reference": picture(after, now, "reference"),
             "replica_before": picture(before, then, "replica"),
             "replica_after": picture(after, now, "replica"),

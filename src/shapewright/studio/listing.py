@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from shapewright.references.files import MESHES
 from shapewright.references.sources import Source, find
 from shapewright.results import file_names
 
@@ -34,6 +35,12 @@ class Listing:
 
     sources: Mapping[str, Source]
     skipped: Mapping[Path, str]
+
+    @property
+    def dimension(self) -> int:
+        """2 where all are drawings, else 3."""
+        kinds = {source.path.suffix.lower() for source in self.sources.values()}
+        return 2 if kinds and not kinds & set(MESHES) else 3
 
 
 def listing(origin: Origin) -> Listing:

@@ -7,7 +7,7 @@ from typing import Any, get_type_hints
 
 from shapewright.settings import Settings
 
-_FIT = ("samples", "epochs", "refine", "rounds", "seed", "threshold", "shape_seconds")
+_FIT = ("samples", "epochs", "refine", "rounds", "seed", "threshold", "fidelity", "shape_seconds")
 _PRESETS = ("fast", "paper")
 
 
@@ -36,7 +36,10 @@ class Preferences:
         if given.get("preset", self.preset) != self.preset:
             if given["preset"] not in _PRESETS:
                 raise ValueError(f"preset is one of {', '.join(_PRESETS)}")
-            kept = {name: getattr(self.settings, name) for name in ("seed", "threshold", "shape_seconds", "workers")}
+            kept = {
+                name: getattr(self.settings, name)
+                for name in ("seed", "threshold", "fidelity", "shape_seconds", "shape_memory_mb", "workers")
+            }
             result = replace(result, preset=given["preset"], settings=Settings.preset(given["preset"], **kept))
         changes = {name: _checked(name, value) for name, value in given.items() if name in _FIT}
         unknown = set(given) - {"auto_fit", "fresh", "preset", *_FIT}

@@ -8,6 +8,7 @@ from collections.abc import Coroutine, Mapping
 from importlib.metadata import version
 from typing import Any
 
+from shapewright.metric import Metric, fidelity, light_field
 from shapewright.references.errors import CollectionError
 from shapewright.studio.authored import Authored
 from shapewright.studio.bench_process import BenchError, BenchProcess
@@ -53,7 +54,7 @@ class Session:
     async def run(self) -> None:
         """Open the project, then serve until cancelled; ends all processes at the end."""
         self._list_references()
-        self.showing.show(self.showing.newest(), self._threshold)
+        self.showing.show(self.showing.newest(), self.metric)
         self._read_source(saved=False)
         try:
             async with asyncio.TaskGroup() as group:
@@ -82,7 +83,7 @@ class Session:
                 "procedure": project.procedure.name,
                 "references": project.origin.source,
             },
-            "dimension": 3,
+            "dimension": self.showing.listed.dimension,
             "bench": self._bench_state,
             "procedure": self._procedure(),
             "collection": self.showing.board.record(),
@@ -213,11 +214,12 @@ class Session:
     def references_changed(self) -> None:
         """Files came, went or changed among the references."""
         self._list_references()
+        self.showing.show(self.showing.run or self.showing.newest(), self.metric)
         self._tell_references()
 
     def _list_references(self) -> None:
         try:
-            self.showing.relist(self._threshold)
+            self.showing.relist()
             self._report("references", [])
         except CollectionError as error:
             self._report("references", [Problem("references", str(error))])
@@ -285,7 +287,7 @@ class Session:
         fitted = None if self.authored.helper else self.showing.newest(self.authored.digest)
         if fitted:
             if fitted != self.showing.run or any(tile.stale for tile in self.showing.board.tiles.values()):
-                self.showing.show(fitted, self._threshold)
+                self.showing.show(fitted, self.metric)
         else:
             self._sweep("carried", self.showing.found)
         self.pages.publish("procedure", procedure=self._procedure())
@@ -311,9 +313,9 @@ class Session:
             self.pages.send(client, payload)
             return
         if message["type"] == "distance":
-            threshold, distance = self.showing.board.threshold, message["distance"]
-            within = distance is not None and distance <= threshold
-            message = {**message, "colour": tint(distance, threshold), "compatible": within}
+            metric, distance = self.showing.board.metric, message["distance"]
+            within = distance is not None and distance <= metric.threshold
+            message = {**message, "colour": tint(distance, metric), "compatible": within}
         self.pages.send(client, message)
 
     # What jobs say
@@ -330,7 +332,7 @@ class Session:
             return
         self._report(job.kind, [job.problem] if job.problem else [])
         if job.kind == "fit" and job.state == "done":
-            self.showing.show(self.showing.newest(), self._threshold)
+            self.showing.show(self.showing.newest(), self.metric)
             self._sweep("carried", {})
             self.pages.publish("procedure", procedure=self._procedure())
         if job.kind in ("fit", "explain"):
@@ -338,8 +340,10 @@ class Session:
             self.pages.publish("explanation", explanation=self.explained)
 
     @property
-    def _threshold(self) -> float:
-        return self.preferences.settings.threshold
+    def metric(self) -> Metric:
+        """What the next fit measures by."""
+        settings = self.preferences.settings
+        return light_field(settings.threshold) if self.showing.listed.dimension == 3 else fidelity(settings.fidelity)
 
     def _spawn(self, work: Coroutine[Any, Any, Any]) -> None:
         task = asyncio.create_task(work)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from shapewright.metric import Metric
 from shapewright.parameters import Parameters
 from shapewright.studio.board import Board, Stage, lay_out
 from shapewright.studio.listing import Listing, kept_picture, listing
@@ -45,14 +46,11 @@ class Showing:
         self._told: list[Problem] = []
         self._unreadable: dict[str, tuple[str, str]] = {}
 
-    def relist(self, threshold: float) -> None:
-        """Look for references anew. Raises CollectionError when there are none."""
+    def relist(self) -> None:
+        """Look for references anew, to be shown by ``show``. Raises CollectionError when there are none."""
         self._unreadable.clear()
         self.listed = Listing({}, {})
-        try:
-            self.listed = listing(self.project.origin)
-        finally:
-            self.show(self.run, threshold)
+        self.listed = listing(self.project.origin)
 
     def newest(self, digest: str | None = None) -> Path | None:
         """The newest run that knows some reference, of the version with this digest if one is given."""
@@ -67,16 +65,16 @@ class Showing:
                 return folder
         return None
 
-    def show(self, run: Path | None, threshold: float) -> None:
+    def show(self, run: Path | None, metric: Metric) -> None:
         """Put up a run, or bare references, and tell the pages."""
         self.stop_sweep()
         self.run = run
-        self.board = self.laid_out(run, threshold)
+        self.board = self.laid_out(run, metric)
         self._forget_pictures()
         self.pages.publish("collection", collection=self.board.record())
         self._tell_problems()
 
-    def laid_out(self, run: Path | None, threshold: float) -> Board:
+    def laid_out(self, run: Path | None, metric: Metric) -> Board:
         """The board that ``show`` puts up, without putting it up. Raises RunError."""
         runs = self.project.runs
         before = runs[runs.index(run) - 1] if run in runs[1:] else None
@@ -87,7 +85,7 @@ class Showing:
             read_record(run) if run else None,
             run,
             read_record(before) if before else None,
-            threshold,
+            metric,
         )
         for slug, (path, reason) in self._unreadable.items():
             board = board.without(slug, path, reason)
@@ -171,7 +169,7 @@ class Showing:
     def _flush(self) -> None:
         tiles = [self.board.tiles[slug] for slug in sorted(self._dirty) if slug in self.board.tiles]
         self._dirty.clear()
-        self.pages.publish("tiles", tiles=[tile.record(self.board.threshold) for tile in tiles])
+        self.pages.publish("tiles", tiles=[tile.record(self.board.metric) for tile in tiles])
         self._tell_problems()
 
     def _tell_problems(self) -> None:

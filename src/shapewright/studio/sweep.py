@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.parameters import Parameters
-from shapewright.shapes import Mesh
 from shapewright.studio.appraisal import Target
 from shapewright.studio.built import Built
 from shapewright.studio.gallery import Shelf, picture, shape_bytes
@@ -59,7 +58,7 @@ class Sweep:
             if again is None:
                 return
             target = self.target(slug)
-            if target and isinstance(again.build.shape, Mesh):
+            if target and again.build.shape is not None:
                 distance = target.distance(again.build.shape.normalised())
                 self._say({"type": "measured", "slug": slug, "distance": distance})
             yield

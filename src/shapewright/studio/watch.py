@@ -10,7 +10,7 @@ from watchfiles import Change, awatch
 
 from shapewright.studio.project import SCRATCH, Project
 
-_SHAPES = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf", ".3mf", ".svg", ".csv")
+_SHAPES = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf", ".3mf", ".svg", ".png", ".csv")
 _STEP, _LONGEST = 30, 300
 
 
