@@ -1,6 +1,8 @@
 /** One reference and its replica. */
 
+import { useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
+import { useMemo } from "preact/hooks";
 import { inspect } from "../state/route";
 import { Icon } from "../ui/icons";
 import { fixed } from "../ui/numbers";
@@ -14,15 +16,27 @@ const STAGES: Partial<Record<Tile["stage"], [string, string]>> = {
   predicted: ["predicted", "As predicted, before the search"],
 };
 
-export function TileCard({ tile, children }: { tile: Tile; children?: ComponentChildren }) {
+/** Drawn anew only when its tile changes: there may be hundreds, and a fit changes them often. */
+export function TileCard({ tile, children }: Props) {
+  return useMemo(() => <Card tile={tile}>{children}</Card>, [tile, children]);
+}
+
+interface Props {
+  tile: Tile;
+  children?: ComponentChildren;
+}
+
+function Card({ tile, children }: Props) {
   const stage = STAGES[tile.stage];
+  const { slug } = tile;
+  const tabIndex = useComputed(() => (at.value === slug ? 0 : -1));
   return (
     <article class={`tile ${tile.stale ? "stale" : ""}`}>
       <button
         type="button"
         class="pair"
         data-tile={tile.slug}
-        tabIndex={at.value === tile.slug ? 0 : -1}
+        tabIndex={tabIndex}
         aria-label={`${tile.name}, ${describe(tile)}`}
         onFocus={() => (at.value = tile.slug)}
         onClick={() => inspect(tile.slug)}

@@ -1,5 +1,6 @@
 /** The page: header, what is wrong, and one view. */
 
+import { useSignalEffect } from "@preact/signals";
 import { CollectionView } from "../collection/view";
 import { FeedbackView } from "../feedback/view";
 import { HistoryView } from "../history/view";
@@ -8,7 +9,7 @@ import { LoopView } from "../loop/view";
 import { fit } from "../state/actions";
 import { useKeys } from "../state/keys";
 import { go, route, VIEWS } from "../state/route";
-import { connected, fitting, procedure, ready } from "../state/studio";
+import { collection, connected, fitting, jobs, lost, procedure, project, ready } from "../state/studio";
 import { switchTheme } from "../state/theme";
 import { Empty } from "../ui/controls";
 import { Header, ProgressLine } from "./header";
@@ -35,10 +36,13 @@ export function App() {
     },
     { keys: ["d"], does: "dark or light", run: switchTheme },
   ]);
+  useSignalEffect(() => {
+    document.title = title();
+  });
   if (!ready.value) {
     return (
       <Empty title={connected.value ? "Opening the project…" : "No connection to the studio's server"}>
-        {!connected.value && <p>Is `shapewright studio` still running? The page connects again by itself.</p>}
+        {!connected.value && <p>{lost.value}</p>}
       </Empty>
     );
   }
@@ -57,4 +61,13 @@ export function App() {
       <Notices />
     </>
   );
+}
+
+/** What the browser's tab says: how the loop stands, even from afar. */
+function title(): string {
+  const { compatible, count, run } = collection.value;
+  const name = project.value.name || "shapewright studio";
+  if (fitting.value) return `${jobs.fit.value.stages.at(-1)?.name ?? "fit"}… ${name}`;
+  if (procedure.value.state === "broken") return `broken: ${name}`;
+  return run === null ? name : `${compatible}/${count} ${name}`;
 }

@@ -2,7 +2,7 @@
 
 import { cancel, fit } from "../state/actions";
 import { go, route, VIEWS } from "../state/route";
-import { bench, collection, connected, fitting, jobs, procedure, project } from "../state/studio";
+import { bench, collection, connected, fitting, jobs, lost, procedure, project } from "../state/studio";
 import { switchTheme, theme } from "../state/theme";
 import { Button } from "../ui/controls";
 import { duration } from "../ui/numbers";
@@ -63,7 +63,13 @@ function Mark() {
 export function Status() {
   const job = jobs.fit.value;
   const stage = job.stages.at(-1);
-  if (!connected.value) return <p class="status bad">Connection lost; trying again…</p>;
+  if (!connected.value) {
+    return (
+      <p class="status bad" title={lost.value}>
+        {lost.value}
+      </p>
+    );
+  }
   if (fitting.value) {
     const part = stage && stage.total > 1 ? ` ${stage.done}/${stage.total}` : "";
     return (

@@ -5,7 +5,7 @@ import { collection, marks } from "../state/studio";
 import { Button } from "../ui/controls";
 import { fixed, plural, significant } from "../ui/numbers";
 import { Dot } from "../ui/picture";
-import { edited, failure, figures, outcome, reference, waiting } from "./session";
+import { edited, failure, figures, outcome, reference, replica, waiting } from "./session";
 
 export function Figures() {
   const now = figures.value ?? reference.value;
@@ -58,7 +58,7 @@ export function Figures() {
               {failed.file}:{failed.line} {failed.text?.trim()}
             </code>
           )}
-          <p class="soft">Shown is the last replica that could be built.</p>
+          {replica.value && <p class="soft">Shown is the last replica that could be built.</p>}
         </div>
       )}
     </section>

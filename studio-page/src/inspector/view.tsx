@@ -20,7 +20,7 @@ import { take, tool, undo } from "./measuring";
 import { Parameters } from "./parameters";
 import { Pictures } from "./pictures";
 import { DifferenceLegend, Plane } from "./plane";
-import { colouring, edited, failure, open, original, reset } from "./session";
+import { colouring, edited, failure, open, original, replica, reset } from "./session";
 import { layout, stage } from "./showing";
 import { Space } from "./space";
 
@@ -127,7 +127,11 @@ function Captions() {
       {beside && (
         <span>
           Replica
-          {failure.value ? <b class="badge bad">last good</b> : edited.value && <b class="badge">edited</b>}
+          {failure.value && replica.value ? (
+            <b class="badge bad">last good</b>
+          ) : (
+            edited.value && <b class="badge">edited</b>
+          )}
         </span>
       )}
       {!original.value && <span class="soft">reading…</span>}

@@ -30,6 +30,8 @@ const idle = (kind: JobKind): Job => ({
 
 export const ready = signal(false);
 export const connected = signal(true);
+/** Why there is no connection, and what to do. */
+export const lost = signal("");
 export const version = signal("");
 export const project = signal<State["project"]>({ name: "", folder: "", procedure: "procedure.py", references: "" });
 export const dimension = signal<2 | 3>(3);
@@ -69,7 +71,13 @@ export const fitting = computed(() => ["running", "cancelling"].includes(jobs.fi
 export const tileOf = (slug: Slug): Tile | undefined => tiles.value.get(slug);
 
 export function start(): void {
-  connect({ changed: apply, connected: (yes) => (connected.value = yes) });
+  connect({
+    changed: apply,
+    connected: (why) => {
+      connected.value = why === null;
+      lost.value = why ?? "";
+    },
+  });
 }
 
 function apply(change: Change): void {
@@ -125,9 +133,15 @@ function replaceTiles(changed: Tile[]): void {
   const kept = collection.value.tiles.map((tile) => {
     const next = bySlug.get(tile.slug);
     bySlug.delete(tile.slug);
-    return next ?? tile;
+    return next ? provisional(next, tile) : tile;
   });
   const all = [...kept, ...bySlug.values()];
   const compatible = all.filter((tile) => tile.compatible).length;
   collection.value = { ...collection.value, tiles: all, count: all.length, compatible };
+}
+
+/** A replica that is not measured yet stays on its side of the threshold, so that tiles do not jump there and back. */
+function provisional(next: Tile, before: Tile): Tile {
+  const waits = next.distance === null && next.replica !== null && next.problem === null;
+  return waits ? { ...next, compatible: before.compatible } : next;
 }

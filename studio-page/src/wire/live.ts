@@ -9,7 +9,8 @@ const EVALUATED = new Set(["distance", "drawing", "failed"]);
 
 export interface Listener {
   changed(change: Change): void;
-  connected(yes: boolean): void;
+  /** null, or why there is no connection. */
+  connected(why: string | null): void;
 }
 
 let socket: WebSocket | null = null;
@@ -25,7 +26,7 @@ export function connect(listener: Listener, wait = FIRST_WAIT): void {
   let next = Math.min(2 * wait, LONGEST_WAIT);
   socket.addEventListener("open", () => {
     next = FIRST_WAIT;
-    listener.connected(true);
+    listener.connected(null);
   });
   socket.addEventListener("message", ({ data }: MessageEvent<string | ArrayBuffer>) => {
     if (data instanceof ArrayBuffer) return evaluationListener(decode(data));
@@ -34,9 +35,17 @@ export function connect(listener: Listener, wait = FIRST_WAIT): void {
     else listener.changed(message as Change);
   });
   socket.addEventListener("close", () => {
-    listener.connected(false);
+    void reason().then((why) => socket?.readyState !== WebSocket.OPEN && listener.connected(why));
     setTimeout(() => connect(listener, next), wait);
   });
+}
+
+/** A studio that was started anew does not know this page any more. */
+async function reason(): Promise<string> {
+  const answer = await fetch("/api/state").catch(() => null);
+  return answer?.status === 401
+    ? "The studio was started anew: open the address that it printed."
+    : "The studio does not answer: is it still running? The page connects again by itself.";
 }
 
 /** Ask for a replica; the answers come to the one listener. Returns the number that they carry. */
