@@ -91,7 +91,7 @@ class Visit:
         self.page.evaluate("slug => { location.hash = `inspect/${slug}`; }", slug)
         self.page.wait_for_selector(f".inspector h2[title='{slug}']")
         self.page.wait_for_selector(".figures:not(.waiting) [data-figure=distance]")
-        self.until("window.shapewright.gpu().geometries >= 4")
+        self.until("document.querySelector('.plane') || window.shapewright.gpu().geometries >= 4")
 
     def until(self, expression: str, seconds: float = 30) -> None:
         """Wait until an expression is true. (Playwright's own way to wait for one is against the page's policy.)"""

@@ -5,7 +5,6 @@ Each fails on any error on the console and on any request off the machine.
 
 from __future__ import annotations
 
-import importlib.util
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -351,11 +350,63 @@ def test_without_webgl_pictures_are_shown(server: Studio, browser: Any, fitted: 
     visit.end()
 
 
-@pytest.mark.skipif(
-    importlib.util.find_spec("shapewright.modelling.drawing") is None, reason="no 2D procedures in this version yet"
-)
-def test_drawings() -> None:
-    pytest.skip("the loop on drawings is not in this version yet")
+DRAWINGS = """
+from typing import Annotated
+
+from shapewright import Range, procedure
+from shapewright.modelling.drawing import box
+
+
+@procedure
+def table(
+    height: Annotated[float, Range(0.4, 1.2)] = 0.7,
+    leg: Annotated[float, Range(0.05, 0.2)] = 0.1,
+):
+    top = box((1, 0.1), at=(0, height - 0.05))
+    return top | box((leg, height), at=(0.5 - leg / 2, height / 2)).mirror("x", keep=True)
+"""
+
+
+def svg(height: float, leg: float, shelf: bool) -> str:
+    """The front of a table, 100 wide, on a page of its own."""
+    parts = [(0, 0, 100, 10), (0, 0, leg, height), (100 - leg, 0, leg, height)]
+    if shelf:
+        parts.append((0, height / 2, 100, 8))
+    boxes = "".join('<rect x="{}" y="{}" width="{}" height="{}"/>'.format(*part) for part in parts)
+    return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-10 -10 120 {height + 20}">{boxes}</svg>'
+
+
+def test_drawings(browser: Any, tmp_path: Path) -> None:
+    (tmp_path / "references").mkdir()
+    for i in range(8):
+        text = svg(45 + 8 * i, 6 + 2 * (i % 4), shelf=i % 3 == 0)
+        (tmp_path / "references" / f"front-{i}.svg").write_text(text)
+    (tmp_path / "procedure.py").write_text(DRAWINGS)
+    with studio(tmp_path, *QUICK) as server:
+        server.wait_for(ready)
+        visit = Visit.of(server, browser)
+        page = visit.page
+        page.wait_for_selector(".tile")
+        page.click(".button.fit")
+        state = server.wait_for(rested, 240)
+        page.wait_for_selector(".score:has-text('compatible')")
+        assert state["dimension"] == 2
+        visit.open("front-3")
+        page.wait_for_selector(".plane.beside .sheet path >> nth=1", state="attached")
+        assert page.locator(".plane .sheet").count() == 2
+        page.click("text=Overlay")
+        page.wait_for_selector(".sheet .reference + .replica", state="attached")
+        page.click("text=Difference")
+        page.wait_for_selector(".sheet .missing", state="attached")
+        outline = page.get_attribute(".sheet .missing", "d")
+        found = visit.distance
+        slider = page.locator("[data-parameter=height] input[type=range]")
+        slider.focus()
+        for _ in range(40):
+            page.keyboard.press("ArrowLeft" if float(slider.input_value()) > 0.8 else "ArrowRight")
+        visit.until(f"{SHOWN} !== '{found:.3f}'.slice(1)")
+        assert page.get_attribute(".sheet .missing", "d") != outline
+        visit.end()
 
 
 def test_trouble_is_noticed(server: Studio, browser: Any) -> None:
