@@ -31,6 +31,7 @@ from shapewright.options import (
 from shapewright.procedure import ProcedureError, load_procedure
 from shapewright.references.errors import CollectionError
 from shapewright.settings import Settings
+from shapewright.studio.command import studio
 from shapewright.studio.project import ProjectError
 from shapewright.workspace import (
     RunError,
@@ -67,7 +68,9 @@ def new(name: Annotated[Path, typer.Argument(help="The folder to make.")]) -> No
     shutil.copyfile(Path(__file__).with_name("starter.py"), name / "procedure.py")
     out.print(f"made {escape(str(name))}/procedure.py and {escape(str(name))}/references/", highlight=False)
     out.print("\nPut meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF) into references, then:\n")
-    out.print(f"  cd {escape(str(name))}\n  shapewright fit procedure.py references", highlight=False)
+    place = escape(str(name))
+    out.print(f"  shapewright studio {place}\n\nor, without a browser:\n", highlight=False)
+    out.print(f"  cd {place}\n  shapewright fit procedure.py references", highlight=False)
 
 
 @app.command()
@@ -270,55 +273,7 @@ def compare(
         print_comparison(out, before, after, comparison)
 
 
-@app.command()
-def studio(
-    folder: Annotated[
-        Path, typer.Argument(help="The project: a folder as [bold]shapewright new[/] makes it.")
-    ] = Path(),
-    port: Annotated[
-        int | None, typer.Option(min=1, max=65535, help="Port to listen on.  [dim]default: 8470, or any free one[/]")
-    ] = None,
-    browser: Annotated[bool, typer.Option(help="Open the page in the browser.")] = True,
-    procedure: Annotated[str, typer.Option(help="The procedure's file in the project.")] = "procedure.py",
-    references: Annotated[
-        str | None,
-        typer.Option(help="A folder, glob or CSV manifest anywhere.  [dim]default: the project's references[/]"),
-    ] = None,
-    up: Annotated[str, typer.Option(help="The axis of the files that points up: x, y, z, -x, -y, -z.")] = "y",
-    front: Annotated[
-        str | None, typer.Option(help="The axis that points to the front.  [dim]default: z, or -y where up is z[/]")
-    ] = None,
-    preset: Preset = "fast",
-    samples: Samples = None,
-    epochs: Epochs = None,
-    refine: Refine = None,
-    time_limit: Annotated[float, typer.Option(help="Seconds that building one shape may take.")] = 5.0,
-    memory_limit: Annotated[int, typer.Option(help="Megabytes that building one shape may take.")] = 2048,
-    auto_fit: Annotated[bool, typer.Option(help="Fit after every save; the page can change that.")] = True,
-    host: Annotated[str, typer.Option(help="Address to listen on; others than this machine's own need the next.")] = (
-        "127.0.0.1"
-    ),
-    allow_remote: Annotated[
-        bool, typer.Option("--allow-remote", help="Let others reach the studio: who has its token runs code as you.")
-    ] = False,
-    workers: Workers = None,
-) -> None:
-    """Open the project as a page in the browser: the loop of editing, fitting and looking, live."""
-    from shapewright.studio.preferences import Preferences
-    from shapewright.studio.project import Project
-    from shapewright.studio.server import serve
-
-    given = _given(samples=samples, epochs=epochs, refine=refine)
-    settings = Settings.preset(preset, **given, shape_seconds=time_limit, shape_memory_mb=memory_limit, workers=workers)
-    serve(
-        Project.of(folder, procedure, references, up, front),
-        Preferences(auto_fit=auto_fit, preset=preset, settings=settings),
-        host,
-        port,
-        allow_remote,
-        browser,
-        lambda address: typer.echo(address),
-    )
+app.command()(studio)
 
 
 @app.command()
@@ -347,8 +302,12 @@ def demo(
         iteration, folder = _fit(load_procedure(procedures.path(version)), loaded, settings, folder)
         if not json:
             print_iteration(out, iteration, folder)
+    if not (out_dir / "procedure.py").exists():
+        shutil.copyfile(procedures.path(version), out_dir / "procedure.py")
     if json:
         print_json(iteration_record(iteration, folder))
+    else:
+        out.print(f"\nto go on from here in the browser: shapewright studio {escape(str(out_dir))}", highlight=False)
 
 
 def _load(references: str, up: str, front: str | None) -> Collection:
