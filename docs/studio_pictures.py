@@ -1,7 +1,8 @@
 """Take the pictures of docs/studio.md: python docs/studio_pictures.py [--project DIR] [NAME ...]
 
 A studio is started on the demo's tables; the author writes versions 1, 2 and 4 of the procedure, each is fitted, and a
-headless Chromium looks at every view. That takes some minutes; a project that is kept is fitted only once.
+headless Chromium looks at every view. Another is started on their silhouettes. That takes some minutes; projects that
+are kept (in DIR) are fitted only once.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import argparse
 import io
 import shutil
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
@@ -84,12 +86,26 @@ def history(visit: Visit) -> None:
     visit.page.wait_for_selector(".moves")
 
 
+def drawings(visit: Visit) -> None:
+    visit.page.click(".fold")
+
+
+def difference(visit: Visit) -> None:
+    tiles = visit.studio.get("/api/state")["collection"]["tiles"]
+    visit.open(max((tile for tile in tiles if tile["distance"] is not None), key=lambda tile: tile["distance"])["slug"])
+    visit.page.click("text=Difference")
+
+
 def keys(visit: Visit) -> None:
     visit.open("kitchen")
     visit.page.keyboard.press("?")
 
 
 # The name of each picture, how it comes about, and whether it is taken in the dark; the last ones change the project.
+FLAT: dict[str, tuple[Callable[[Visit], None], bool]] = {
+    "drawings": (drawings, False),
+    "difference": (difference, False),
+}
 SHOTS: dict[str, tuple[Callable[[Visit], None], bool]] = {
     "collection": (collection, False),
     "inspector": (inspector, False),
@@ -109,7 +125,7 @@ def rested(state: dict[str, Any]) -> bool:
 
 
 def prepare(folder: Path) -> None:
-    """Make the project, and an iteration of each version."""
+    """Make the project of tables, and an iteration of each version."""
     write(folder / "references")
     shutil.copy(ROOT / "examples" / "tables" / "v1.py", folder / "procedure.py")
     with studio(folder, *SETTINGS) as started:
@@ -119,10 +135,23 @@ def prepare(folder: Path) -> None:
             if count > 1:
                 started.save((ROOT / "examples" / "tables" / f"{version}.py").read_text(encoding="utf-8"))
             started.wait_for(lambda state, count=count: rested(state) and len(state["runs"]) == count, 900)
+    shutil.copy(ROOT / "examples" / "tables" / f"{VERSIONS[-1]}.py", folder / "procedure.py")
+
+
+def prepare_flat(folder: Path) -> None:
+    """Make the project of the tables' silhouettes, and one iteration."""
+    write(folder / "bundled")
+    command = [sys.executable, "-m", "shapewright", "silhouettes", str(folder / "bundled")]
+    subprocess.run([*command, "--out", str(folder / "references")], check=True, stdout=subprocess.DEVNULL)
+    shutil.copy(ROOT / "examples" / "drawings" / "v5.py", folder / "procedure.py")
+    with studio(folder, *SETTINGS) as started:
+        started.wait_for(ready)
+        started.send("POST", "/api/fit", {"fresh": True}, 202)
+        started.wait_for(rested, 900)
 
 
 def take(started: Studio, browser: Any, name: str) -> None:
-    arrive, dark = SHOTS[name]
+    arrive, dark = (SHOTS | FLAT)[name]
     visit = Visit.of(started, browser, color_scheme="dark" if dark else "light")
     visit.page.set_viewport_size(SIZE)
     visit.page.wait_for_selector(".tile")
@@ -137,18 +166,26 @@ def take(started: Studio, browser: Any, name: str) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", choices=[*SHOTS, []], metavar="NAME", help=", ".join(SHOTS))
-    parser.add_argument("--project", type=Path, help="where the project is, or is to be made")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(SHOTS | FLAT))
+    parser.add_argument("--project", type=Path, help="where the projects are, or are to be made")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = arguments.project or Path(scratch) / "tables"
-        if not (folder / "runs").is_dir():
-            prepare(folder)
-        with studio(folder, *SETTINGS, "--no-auto-fit") as started, chromium() as browser:
-            started.wait_for(ready)
-            for name in arguments.names or SHOTS:
-                take(started, browser, name)
-        shutil.copy(ROOT / "examples" / "tables" / f"{VERSIONS[-1]}.py", folder / "procedure.py")
+    wanted = arguments.names or [*SHOTS, *FLAT]
+    if unknown := set(wanted) - {*SHOTS, *FLAT}:
+        parser.error(f"no picture {', '.join(unknown)}")
+    with tempfile.TemporaryDirectory() as scratch, chromium() as browser:
+        for folder, shots, make in (("tables", SHOTS, prepare), ("silhouettes", FLAT, prepare_flat)):
+            project = (arguments.project or Path(scratch)) / folder
+            names = [name for name in wanted if name in shots]
+            if not names:
+                continue
+            if not (project / "runs").is_dir():
+                make(project)
+            text = (project / "procedure.py").read_text(encoding="utf-8")
+            with studio(project, *SETTINGS, "--no-auto-fit") as started:
+                started.wait_for(ready)
+                for name in names:
+                    take(started, browser, name)
+            (project / "procedure.py").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

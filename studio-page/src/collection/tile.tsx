@@ -2,13 +2,14 @@
 
 import { useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { useMemo } from "preact/hooks";
+import { useEffect, useMemo, useRef } from "preact/hooks";
 import { inspect } from "../state/route";
 import { Icon } from "../ui/icons";
 import { fixed } from "../ui/numbers";
 import { Dot, Picture } from "../ui/picture";
 import type { Tile } from "../wire/protocol";
 import { at } from "./focus";
+import { watch } from "./visible";
 
 const STAGES: Partial<Record<Tile["stage"], [string, string]>> = {
   carried: ["carried", "Parameters carried over from the version before"],
@@ -29,12 +30,15 @@ interface Props {
 function Card({ tile, children }: Props) {
   const stage = STAGES[tile.stage];
   const { slug } = tile;
+  const button = useRef<HTMLButtonElement>(null);
+  useEffect(() => watch(button.current!), [slug]);
   const tabIndex = useComputed(() => (at.value === slug ? 0 : -1));
   return (
     <article class={`tile ${tile.stale ? "stale" : ""}`}>
       <button
         type="button"
         class="pair"
+        ref={button}
         data-tile={tile.slug}
         tabIndex={tabIndex}
         aria-label={`${tile.name}, ${describe(tile)}`}

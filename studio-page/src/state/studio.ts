@@ -16,6 +16,7 @@ import type {
   Tile,
 } from "../wire/protocol";
 import { connect } from "../wire/live";
+import { complain } from "./notices";
 
 const idle = (kind: JobKind): Job => ({
   kind,
@@ -109,6 +110,9 @@ function apply(change: Change): void {
       return;
     case "explanation":
       explained.value = change.explanation;
+      return;
+    case "wrong":
+      complain(change.error);
   }
 }
 

@@ -57,6 +57,11 @@ export function evaluate(slug: Slug | null, parameters: Values | null, residuals
   return lastId;
 }
 
+/** Say which pairs the author looks at. */
+export function look(slugs: Slug[]): void {
+  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ type: "visible", slugs }));
+}
+
 /** Who hears the answers of evaluations; returns how to stop listening. */
 export function onEvaluated(listener: (message: Evaluated) => void): () => void {
   evaluationListener = listener;

@@ -336,4 +336,5 @@ export type Change =
   | { type: "marks"; marks: Mark[] }
   | { type: "settings"; settings: Settings }
   | { type: "problems"; problems: Problem[] }
-  | { type: "explanation"; explanation: boolean };
+  | { type: "explanation"; explanation: boolean }
+  | { type: "wrong"; error: string };
