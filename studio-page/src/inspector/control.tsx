@@ -1,7 +1,6 @@
 /** The control of one parameter, by its kind. */
 
-import { Segments, Select, Toggle } from "../ui/controls";
-import { Button } from "../ui/controls";
+import { Button, Segments, Select, Toggle } from "../ui/controls";
 import { significant } from "../ui/numbers";
 import type { Parameter, Value } from "../wire/protocol";
 
@@ -44,26 +43,26 @@ function Slider({ parameter, value, found, predicted, spread, disabled, onChange
       : null;
   return (
     <div class="slider">
-      <div class="track" aria-hidden="true">
-        {band && <i class="spread" style={{ left: percent(band.left), width: percent(band.right - band.left) }} />}
-        <i class="fill" style={{ width: percent(share(value)) }} />
-        {predicted !== null && <i class="predicted" style={{ left: percent(share(predicted)) }} />}
-        {found !== null && <i class="found" style={{ left: percent(share(found)) }} />}
+      <span class="end">{significant(low, 3)}</span>
+      <div class="rail">
+        <div class="track" aria-hidden="true">
+          {band && <i class="spread" style={{ left: percent(band.left), width: percent(band.right - band.left) }} />}
+          <i class="fill" style={{ width: percent(share(value)) }} />
+          {predicted !== null && <i class="predicted" style={{ left: percent(share(predicted)) }} />}
+          {found !== null && <i class="found" style={{ left: percent(share(found)) }} />}
+        </div>
+        <input
+          type="range"
+          aria-label={parameter.name}
+          min={low}
+          max={high}
+          step={(high - low) / 400}
+          value={Number(value)}
+          disabled={disabled}
+          onInput={(event) => onChange(Math.min(high, Math.max(low, event.currentTarget.valueAsNumber)))}
+        />
       </div>
-      <input
-        type="range"
-        aria-label={parameter.name}
-        min={low}
-        max={high}
-        step={(high - low) / 400}
-        value={Number(value)}
-        disabled={disabled}
-        onInput={(event) => onChange(Math.min(high, Math.max(low, event.currentTarget.valueAsNumber)))}
-      />
-      <div class="ends" aria-hidden="true">
-        <span>{significant(low)}</span>
-        <span>{significant(high)}</span>
-      </div>
+      <span class="end">{significant(high, 3)}</span>
     </div>
   );
 }

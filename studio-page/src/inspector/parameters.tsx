@@ -54,17 +54,25 @@ function Row({ parameter }: { parameter: Parameter }) {
   const value = values.value[name] ?? parameter.default;
   const used = active.value.size === 0 || active.value.has(name);
   const limited = atLimit.value.has(name) && used;
+  const control = (
+    <ControlOf
+      parameter={parameter}
+      value={value}
+      found={found?.parameters?.[name] ?? null}
+      predicted={found?.predicted?.[name] ?? null}
+      spread={found?.spread?.[name] ?? null}
+      disabled={!used}
+      onChange={(next) => set(name, next)}
+    />
+  );
+  const short = kind === "binary" || kind === "integer";
   return (
     <div class={`parameter ${used ? "" : "unused"}`} data-parameter={name}>
       <div class="head">
         <span class="label" title={name}>
           {words(name)}
         </span>
-        {!used && (
-          <span class="badge" title="With the other parameters as they are, this one changes nothing">
-            no effect
-          </span>
-        )}
+        {used ? <Predicted parameter={parameter} value={found?.predicted?.[name] ?? null} /> : <NoEffect />}
         {limited && (
           <span class="badge warn" title="It rests on the end of its Range: perhaps the Range ends too soon">
             at limit
@@ -89,18 +97,18 @@ function Row({ parameter }: { parameter: Parameter }) {
             onChange={(event) => typed(parameter, event.currentTarget)}
           />
         )}
+        {short && control}
       </div>
-      <ControlOf
-        parameter={parameter}
-        value={value}
-        found={found?.parameters?.[name] ?? null}
-        predicted={found?.predicted?.[name] ?? null}
-        spread={found?.spread?.[name] ?? null}
-        disabled={!used}
-        onChange={(next) => set(name, next)}
-      />
-      <Predicted parameter={parameter} value={found?.predicted?.[name] ?? null} />
+      {!short && control}
     </div>
+  );
+}
+
+function NoEffect() {
+  return (
+    <span class="prediction" title="With the other parameters as they are, this one changes nothing">
+      no effect
+    </span>
   );
 }
 
@@ -122,15 +130,15 @@ function Predicted({ parameter: { name, kind }, value }: { parameter: Parameter;
       .slice(0, 2);
   const sure = best && best[0] && best[0][1] > 0.995;
   return (
-    <p class="prediction">
-      predicted{" "}
+    <span class="prediction" title="What the network predicted, before the search">
+      <i />
       {kind === "scalar" || !best
         ? `${shown(value)}${spread === undefined ? "" : ` ± ${significant(spread, 2)}`}`
         : best
             .filter(([, share]) => share > 0.005)
             .map(([option, share]) => `${readable(option)}${sure ? "" : ` ${percent(share)}`}`)
             .join(", ")}
-    </p>
+    </span>
   );
 }
 
