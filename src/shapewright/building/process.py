@@ -18,14 +18,15 @@ from shapewright.parameters import Parameters
 from shapewright.procedure import ProcedureError
 
 _START_SECONDS = 60.0
+_STEP = 0.1
 _SINGLE_THREADED = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 
 class WorkerProcess:
     """One worker process and the connection to it.
 
-    program: the module that it runs. patience: seconds until it must have read the procedure's file. ready: what it
-    answers then.
+    program: the module that it runs. patience: seconds until it must have read the procedure's file. stop: leave off
+    waiting for that. ready: what it answers then.
     """
 
     def __init__(
@@ -34,6 +35,7 @@ class WorkerProcess:
         limits: Limits,
         program: str = "shapewright.building.worker",
         patience: float = _START_SECONDS,
+        stop: threading.Event | None = None,
     ) -> None:
         self.limits = limits
         key = secrets.token_bytes(32)
@@ -52,9 +54,13 @@ class WorkerProcess:
                 self.connection = self._accept(listener)
         self.connection.send_bytes(payload)
         self.connection.send(limits)
-        if not self.connection.poll(patience):
-            self.stop()
-            raise ProcedureError(f"a worker process read the procedure's file and did not answer within {patience:g} s")
+        waited = 0.0
+        while not self.connection.poll(_STEP):
+            waited += _STEP
+            if waited >= patience or (stop and stop.is_set()):
+                self.stop()
+                message = f"a worker process read the procedure's file and did not answer within {waited:g} s"
+                raise ProcedureError(message)
         self.ready = self._receive()
         if isinstance(self.ready, Failure):
             self.stop()

@@ -108,7 +108,6 @@ class Bench:
         self._tasks["pictures"] = draw()
 
     def _load(self, request: Request) -> None:
-        self._workshop.interrupt.clear()
         self._tasks.pop("sweep", None)
         path = Path(request["procedure"])
         self._root = path.parent

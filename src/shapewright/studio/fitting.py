@@ -20,8 +20,11 @@ PREDICTIONS = "predictions.json"
 def streams() -> tuple[dict[str, Any], TextIO]:
     """The request, and a stream for events; what anything else prints goes to standard error.
 
-    When standard input closes the studio has gone, and so does this program, with all that it started.
+    When standard input closes the studio has gone, and so does this program, with all that it started. It gives way to
+    live evaluation.
     """
+    if hasattr(os, "nice"):
+        os.nice(5)
     events = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     request: dict[str, Any] = json.loads(sys.stdin.buffer.readline())

@@ -13,7 +13,7 @@ class Inbox:
     """Filled by one thread, emptied by another.
 
     Of evaluations only each client's newest counts; they come before fetches, all other requests before them. A new
-    procedure sets ``interrupt``, so that nobody waits for a shape of the old one.
+    procedure sets ``interrupt``, so that nobody waits for the old one; taking it up clears that.
     """
 
     def __init__(self, interrupt: threading.Event) -> None:
@@ -28,6 +28,8 @@ class Inbox:
                 self._live.pop(request["client"], None)
                 self._live[request["client"]] = request
             else:
+                if request["do"] == "load":
+                    self._others = deque(other for other in self._others if other["do"] != "load")
                 self._others.append(request)
             if request["do"] in ("load", "end"):
                 self._interrupt.set()
@@ -50,4 +52,7 @@ class Inbox:
                 self._arrived.wait()
             if self._live and (not self._others or self._others[0]["do"] == "fetch"):
                 return self._live.pop(next(iter(self._live)))
-            return self._others.popleft() if self._others else None
+            request = self._others.popleft() if self._others else None
+            if request and request["do"] == "load":
+                self._interrupt.clear()
+            return request

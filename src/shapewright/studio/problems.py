@@ -12,9 +12,8 @@ from shapewright.building.outcomes import Failure
 from shapewright.parameters import Parameters
 
 # What author_line, load_procedure and Procedure.where write: FILE:LINE, perhaps the function, the message, the line.
-_POINTED = re.compile(
-    r"(?P<file>[^\n]*?\.py):(?P<line>\d+)(?:, \w+\(\))?: (?P<message>.*?)(?:  \((?P<text>.*)\))?", re.S
-)
+_POINTED = re.compile(r"(?P<file>(?:[A-Za-z]:[/\\])?[^:\n]+?\.py):(?P<line>\d+)(?:, \w+\(\))?: ")
+_QUOTED = re.compile(r"(?P<message>.*?)(?:  \((?P<text>.*)\))?", re.S)
 
 
 @dataclass(frozen=True)
@@ -41,13 +40,18 @@ class Problem:
 
 
 def problem(kind: str, message: str, root: Path, parameters: Parameters | None = None) -> Problem:
-    """Take a message of ours apart; the file is named relative to ``root``."""
-    found = _POINTED.fullmatch(message)
+    """Take a message of ours apart; the file is named relative to ``root``. Where it does not begin with a place but
+    holds one, it stays whole."""
+    found = _POINTED.search(message)
     if not found:
         return Problem(kind, message, parameters=parameters)
-    file = Path(found["file"])
+    file = Path(found["file"].strip())
     name = file.relative_to(root).as_posix() if file.is_relative_to(root) else str(file)
-    return Problem(kind, found["message"], name, int(found["line"]), found["text"], parameters=parameters)
+    if found.start():
+        return Problem(kind, message, name, int(found["line"]), parameters=parameters)
+    rest = _QUOTED.fullmatch(message[found.end() :])
+    assert rest is not None
+    return Problem(kind, rest["message"], name, int(found["line"]), rest["text"], parameters=parameters)
 
 
 def of_failure(failure: Failure, root: Path, parameters: Parameters | None = None) -> Problem:

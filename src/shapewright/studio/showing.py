@@ -124,6 +124,7 @@ class Showing:
 
     def begin_sweep(self, stage: Stage, slugs: list[str]) -> int:
         """The number of a sweep that is about to begin; what earlier ones still tell is passed over."""
+        self._forget_pictures()
         self._sweep += 1
         self._stage = stage
         self._left = set(slugs)

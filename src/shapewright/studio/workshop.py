@@ -52,7 +52,8 @@ class Workshop:
         try:
             version = self._start(path, limits)
         except ProcedureError as error:
-            kind = "time" if "took longer than" in str(error) else "load"
+            late = "took longer than" in str(error) or "did not answer within" in str(error)
+            kind = "time" if late else "load"
             raise Broken(problem(kind, str(error), path.parent)) from error
         self._path, self._limits = path, limits
         return version
@@ -79,7 +80,7 @@ class Workshop:
 
     def _start(self, path: Path, limits: Limits) -> Version:
         payload = bytes(cloudpickle.dumps((str(path), list(sys.path))))
-        self._worker = WorkerProcess(payload, limits, _PROGRAM, _PATIENCE)
+        self._worker = WorkerProcess(payload, limits, _PROGRAM, _PATIENCE, self.interrupt)
         version: Version = self._worker.ready
         return version
 
