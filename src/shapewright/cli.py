@@ -1,4 +1,4 @@
-"""The command line: new, fit, explain, mark, evaluate, sample, report, compare, demo."""
+"""The command line: new, fit, explain, mark, evaluate, sample, silhouettes, report, compare, studio, demo."""
 
 from __future__ import annotations
 
@@ -32,6 +32,8 @@ from shapewright.options import (
 from shapewright.procedure import ProcedureError, load_procedure
 from shapewright.references.errors import CollectionError
 from shapewright.settings import Settings
+from shapewright.studio.command import studio
+from shapewright.studio.project import ProjectError
 from shapewright.workspace import (
     RunError,
     cache_folder,
@@ -55,7 +57,7 @@ app = typer.Typer(
     epilog="Start with [bold]shapewright demo[/], or with [bold]shapewright new chairs[/] for a project of your own.",
 )
 out, err = Console(), Console(stderr=True)
-_HANDLED = (ProcedureError, CollectionError, RunError, ValueError, OSError)
+_HANDLED = (ProcedureError, CollectionError, RunError, ProjectError, ValueError, OSError)
 
 
 @app.command()
@@ -67,7 +69,9 @@ def new(name: Annotated[Path, typer.Argument(help="The folder to make.")]) -> No
     shutil.copyfile(Path(__file__).with_name("starter.py"), name / "procedure.py")
     out.print(f"made {escape(str(name))}/procedure.py and {escape(str(name))}/references/", highlight=False)
     out.print("\nPut meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF) into references, then:\n")
-    out.print(f"  cd {escape(str(name))}\n  shapewright fit procedure.py references", highlight=False)
+    place = escape(str(name))
+    out.print(f"  shapewright studio {place}\n\nor, without a browser:\n", highlight=False)
+    out.print(f"  cd {place}\n  shapewright fit procedure.py references", highlight=False)
 
 
 @app.command()
@@ -296,6 +300,9 @@ def compare(
         print_comparison(out, before, after, comparison)
 
 
+app.command()(studio)
+
+
 @app.command()
 def demo(
     out_dir: Annotated[Path, typer.Option("--out", help="Folder for the demo's references and runs.")] = Path(
@@ -323,8 +330,12 @@ def demo(
         iteration, folder = _fit(load_procedure(procedures.path(version, drawings)), loaded, settings, folder)
         if not json:
             print_iteration(out, iteration, folder)
+    if not (out_dir / "procedure.py").exists():
+        shutil.copyfile(procedures.path(version), out_dir / "procedure.py")
     if json:
         print_json(iteration_record(iteration, folder))
+    else:
+        out.print(f"\nto go on from here in the browser: shapewright studio {escape(str(out_dir))}", highlight=False)
 
 
 def _load(references: str, up: str, front: str | None) -> Collection:

@@ -114,11 +114,9 @@ class Collection:
         skipped: dict[Path, str] = {}
         for file in sources.find(origins, up, front):
             try:
-                shape, notes = files.read(file.path)
+                references.append(read_reference(file))
             except UnreadableError as error:
                 skipped[file.path] = str(error)
-            else:
-                references.append(_normalised(file.name, file.path, shape, file.orientation, notes))
         if not references:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
@@ -173,6 +171,12 @@ class Collection:
     def __repr__(self) -> str:
         skipped = f", {len(self.skipped)} skipped" if self.skipped else ""
         return f"Collection({len(self)} references from {self.source}{skipped})"
+
+
+def read_reference(source: sources.Source) -> Reference:
+    """One file of those that ``sources.find`` lists. Raises UnreadableError, with the reason."""
+    shape, notes = files.read(source.path)
+    return _normalised(source.name, source.path, shape, source.orientation, notes)
 
 
 def _normalised(
