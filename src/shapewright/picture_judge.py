@@ -21,7 +21,7 @@ from shapewright.shapes import Drawing, Shape
 from shapewright.threads import in_threads
 
 Floats = NDArray[np.float64]
-SMALL = 64
+SMALL = 48
 """Pixels along the side of the pictures that are compared while searching."""
 UNIT = 100.0
 """A pixel's residual where one picture is black and the other white; the search takes a fifth of that as small."""

@@ -30,13 +30,15 @@ class Round:
 
     A combination is first built as it is, then once with each scalar moved a little; only from its third round on are
     there ``steps`` along the model of its residuals, and ``strays``, random points around its best. near: only for
-    references whose cost is above the goal but at most so many times it, and only while it is.
+    references whose cost is above the goal but at most so many times it, and only while it is. afresh: instead of steps
+    the scalars are each moved a little again, because the model has aged.
     """
 
     combinations: int
     steps: int = 2
     strays: int = 0
     near: float | None = None
+    afresh: bool = False
 
 
 @dataclass(frozen=True)
@@ -150,6 +152,7 @@ def refine(
             search.arms.sort(key=lambda arm: arm.cost)
             if search.cost > enough and search.worth(turn.near, goal):
                 for arm in search.arms[: turn.combinations]:
+                    arm.slopes = None if turn.afresh else arm.slopes
                     asked += [_Trial(i, arm, point) for point in _propose(space, arm, turn, search)]
         vectors = [space.canonical(space.decode(trial.point)) for trial in asked]
         residuals = _residuals(measure, [trial.reference for trial in asked], crew.build(vectors))
