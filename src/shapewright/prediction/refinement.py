@@ -57,7 +57,7 @@ class Budget:
         return Budget(self.rounds[:fit] or (Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
 
     def _spent(self, scalars: int) -> list[int]:
-        each = [1, scalars, *(r.steps + r.strays for r in self.rounds[2:])]
+        each = [1, scalars, *(scalars if r.afresh else r.steps + r.strays for r in self.rounds[2:])]
         return [r.combinations * points for r, points in zip(self.rounds, each, strict=False)]
 
 
@@ -65,6 +65,10 @@ QUICK = Budget(
     (Round(8), Round(3), Round(2, 2, 2), *(Round(1, 2, 3),) * 2, *(Round(1, 2, 4, near=1.4),) * 12),
 )
 THOROUGH = Budget((Round(24), Round(12), *(Round(8, 2, 4),) * 3, *(Round(4, 2, 6),) * 6, *(Round(2, 2, 8),) * 20))
+_AGAIN = (Round(1, afresh=True), Round(1, 3))
+DRAWN = Budget((Round(10), Round(4), Round(4, 3), Round(2, afresh=True), Round(2, 3), *_AGAIN * 5))
+DRAWN_THOROUGH = Budget((Round(30), Round(12), Round(12, 3), *(Round(5, afresh=True), Round(5, 3)) * 3, *_AGAIN * 8))
+"""Drawings are built and measured quickly, but what pictures say changes more from place to place."""
 _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1
 _PROBE = 0.04
