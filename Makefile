@@ -2,12 +2,15 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: demo test clean picture
+.PHONY: demo test page clean picture
+
+PAGE := src/shapewright/studio/page/index.html
+PAGE_SOURCES := $(shell find studio-page -type f -not -path '*/node_modules/*')
 
 demo: .venv/installed
 	$(BIN)/shapewright demo --out demo-run
 
-test: .venv/installed
+test: .venv/installed $(PAGE)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
@@ -18,8 +21,14 @@ test: .venv/installed
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[dev]"
 	touch $@
 
+# The studio's page; installing builds it where it is missing or older than its sources.
+page: $(PAGE)
+
+$(PAGE): .venv/installed $(PAGE_SOURCES)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
+
 clean:
-	rm -rf .venv demo-run runs
+	rm -rf .venv demo-run runs studio-page/node_modules src/shapewright/studio/page
 
 # The picture in the README: the report that `make demo` made last.
 picture:

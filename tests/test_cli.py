@@ -153,7 +153,7 @@ def test_a_wrong_option_is_a_usage_error(project):
 
 
 def test_every_command_has_help(tmp_path):
-    for command in ("new", "fit", "evaluate", "sample", "report", "compare", "demo"):
+    for command in ("new", "fit", "evaluate", "sample", "report", "compare", "studio", "demo"):
         run = shapewright(command, "--help", cwd=tmp_path, env={"COLUMNS": "120"})
         assert run.returncode == 0 and "Usage" in run.stdout
 

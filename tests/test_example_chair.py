@@ -12,7 +12,6 @@ FOLDER = Path(__file__).resolve().parents[1] / "examples" / "chair"
 VERSIONS = [path.stem for path in sorted(FOLDER.glob("v*.py"))]
 BASES = {
     "legs": {"leg"},
-    "turned": {"leg"},
     "sled": {"leg", "runner"},
     "pedestal": {"column", "foot"},
     "star": {"column", "foot"},
@@ -77,13 +76,12 @@ def test_every_part_is_labelled():
     assert set(chair(base="plinth", rails=0, arms="solid").labels) == {"seat", "back", "arm"}
 
 
-@pytest.mark.parametrize("base", ["legs", "turned"])
-def test_stretchers_join_the_legs(base):
+def test_stretchers_join_the_legs():
     chair = load(VERSIONS[-1])
-    faces = [chair(base=base, stretchers=count).labels.count("stretcher") for count in range(4)]
+    faces = [chair(stretchers=count).labels.count("stretcher") for count in range(4)]
     assert faces[0] == 0 and all(faces[1:]) and len(set(faces)) == 4
     for count in range(4):
-        assert chair(base=base, stretchers=count, splay=0.3).soundness().components == 1
+        assert chair(stretchers=count, splay=0.3).soundness().components == 1
 
 
 def test_the_back_leans_and_curves():

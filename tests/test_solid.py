@@ -68,3 +68,33 @@ def test_bent_parts_that_are_all_but_flush_leave_no_slivers(gap):
     assert set(mesh.labels) == {"rail", "post"}
     a, b, c = mesh.triangles.transpose(1, 0, 2)
     assert np.einsum("fd,fd->", a, np.cross(b, c)) / 6 == pytest.approx(bent.volume, rel=1e-3)
+
+
+def stool():
+    leg = box((0.1, 1, 0.1), at=(0.45, 0, 0.45)).label("legs")
+    seat = box((1, 0.1, 1), at=(0, 0.5, 0)).label("seat")
+    return seat | leg.mirror("x", keep=True).mirror("z", keep=True)
+
+
+def test_a_part_is_whole_though_the_union_hides_some_of_it():
+    legs = stool().part("legs")
+    assert legs.bounds.tolist() == [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]] and legs.volume == pytest.approx(0.04)
+    with pytest.raises(ValueError, match="no piece is labelled 'back'; the labels are: seat, legs"):
+        stool().part("back")
+
+
+def test_parts_follow_moves_cuts_and_deformations():
+    moved = stool().translate((1, 0, 0)).scale((2, 1, 1)).rotate(90, "y", about=(1, 0, 0)).mirror("z")
+    assert moved.part("legs").volume == pytest.approx(0.08)
+    np.testing.assert_allclose((moved | box(9)).part("seat").bounds, moved.part("seat").bounds)
+    assert (stool() - box(1, at=(0.5, 0, 0))).part("legs").volume == pytest.approx(0.02)
+    assert (stool() & box(1, at=(0.5, 0, 0))).part("legs").volume == pytest.approx(0.02)
+    tapered = stool().taper(0.5)
+    assert tapered.part("seat").bounds[1, 0] < 0.35
+
+
+def test_without_takes_pieces_away():
+    assert stool().without("legs").volume == pytest.approx(0.1)
+    assert stool().without("legs").mesh().label_names == ("seat",)
+    assert stool().without("nothing").volume == pytest.approx(stool().volume)
+    assert stool().without("legs", "seat").manifold.is_empty()

@@ -23,7 +23,7 @@ def parts(box, seat_height, seat_thickness):
 def four_legs(box, leg):
     for corner in box.corners(leg):
         yield corner.tag("leg")
-    yield box.inset(x=leg / 4, z=leg / 4).sub((None, leg / 2, None)).tag("stretchers")
+    yield box.inset(x=leg / 4, z=leg / 4).sub((None, min(leg, box.height) / 2, None)).tag("stretchers")
 
 
 @grammar.rule("stretchers", when=lambda p: p.stretchers == 0)
@@ -79,7 +79,7 @@ def no_arms(box):
 @grammar.rule("arms", when=lambda p: p.arms == "open")
 def open_arms(box, leg, arm_height):
     for side in box.ends("x", leg):
-        below, arm, _ = side.split("y", arm_height * box.height, 0.6 * leg, ...)
+        below, arm, _ = side.split("y", arm_height * box.height, min(0.6 * leg, 0.15 * box.height), ...)
         yield arm.tag("arm")
         yield below.sub((None, None, leg), anchor=(0.5, 0.5, 1)).tag("arm post")
 
@@ -99,7 +99,7 @@ def chair(
     back_thickness: Annotated[float, Range(0.02, 0.25)] = 0.05,
     leg: Annotated[float, Range(0.02, 0.14)] = 0.06,
     gap: Annotated[float, Range(0.3, 0.8, when=lambda p: p.rails > 0)] = 0.5,
-    arm_height: Annotated[float, Range(0.2, 0.7, when=lambda p: p.arms != "none")] = 0.4,
+    arm_height: Annotated[float, Range(0.15, 0.8, when=lambda p: p.arms != "none")] = 0.4,
     rails: Annotated[int, Range(0, 4)] = 2,
     slats: Annotated[int, Range(0, 4, when=lambda p: p.rails == 1)] = 0,
     stretchers: Annotated[int, Range(0, 3)] = 0,

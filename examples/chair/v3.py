@@ -1,4 +1,4 @@
-"""Chairs, version 3: six bases, splayed legs, leaning and curved backs. Lengths are parts of the height, which is 1."""
+"""Chairs, version 3: five bases, splayed legs, leaning and curved backs. All lengths are parts of the height, 1."""
 
 import math
 from typing import Annotated, Literal
@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from shapewright import Range, procedure
 from shapewright.modelling.grammar import Grammar
 from shapewright.modelling.solids import box as block
-from shapewright.modelling.solids import cylinder, turned_leg
+from shapewright.modelling.solids import cylinder
 
 grammar = Grammar()
 
@@ -30,17 +30,13 @@ def seat_on_a_base(box, seat_height, seat_thickness):
 # What the seat stands on
 
 
-@grammar.rule("base", when=lambda p: p.base in ("legs", "turned"))
-def four_legs(box, leg, splay, base):
+@grammar.rule("base", when=lambda p: p.base == "legs")
+def four_legs(box, leg, splay):
     out = splay * box.height
     for corner in box.corners(leg):
-        form = corner.fill(turned_leg, profile=TURNED, smooth=False, segments=8) if base == "turned" else corner
-        yield form.path((0, 0, 0), (out, 0, out), axis="-y").label("leg")
+        yield corner.path((0, 0, 0), (out, 0, out), axis="-y").label("leg")
     margin = 0.15 * leg - out / 2
-    yield box.inset(x=margin, z=margin).sub((None, 0.7 * leg, None)).tag("stretchers")
-
-
-TURNED = [(0.6, 0.0), (0.9, 0.1), (0.5, 0.2), (1.0, 0.5), (0.6, 0.82), (1.0, 0.9), (1.0, 1.0)]
+    yield box.inset(x=margin, z=margin).sub((None, min(0.7 * leg, box.height / 2), None)).tag("stretchers")
 
 
 @grammar.rule("base", when=lambda p: p.base == "sled")
@@ -48,7 +44,7 @@ def sled(box, leg):
     for corner in box.corners(leg):
         yield corner.label("leg")
     for side in box.ends("x", leg):
-        yield side.sub((None, leg, None), anchor=(0.5, 0, 0.5)).label("runner")
+        yield side.sub((None, min(leg, box.height / 2), None), anchor=(0.5, 0, 0.5)).label("runner")
 
 
 @grammar.rule("base", when=lambda p: p.base == "pedestal")
@@ -92,10 +88,10 @@ def stretchers_at_the_sides(box, stretchers):
 @grammar.rule("above")
 def back_and_arms(box, back_thickness, lean, curve):
     sagitta = box.width * math.tan(math.radians(curve) / 4) / 2
-    leaning = box.path((0, 0, 0), (0, 0, -lean * box.height))
-    back = leaning.sub((None, None, back_thickness), anchor=(0.5, 0, 0))
-    yield back.bend(curve, "x", towards="z", fixed=0.5).tag("back")
-    yield leaning.inset(z=(sagitta, 0)).tag("arms")
+    leaning = (0, 0, 0), (0, 0, -lean * box.height)
+    back = box.sub((None, None, back_thickness), anchor=(0.5, 0, 0))
+    yield back.bend(curve, "x", towards="z", fixed=0.5).path(*leaning).tag("back")
+    yield box.inset(z=(sagitta, 0)).path(*leaning).tag("arms")
 
 
 @grammar.rule("back", when=lambda p: p.rails == 0)
@@ -121,7 +117,7 @@ def no_arms(box):
 @grammar.rule("arms", when=lambda p: p.arms == "open")
 def open_arms(box, leg, arm_height):
     for side in box.ends("x", leg):
-        below, arm, _ = side.split("y", arm_height * box.height, 0.6 * leg, ...)
+        below, arm, _ = side.split("y", arm_height * box.height, min(0.6 * leg, 0.15 * box.height), ...)
         yield arm.label("arm")
         yield below.sub((None, None, leg), anchor=(0.5, 0.5, 1)).label("arm post")
 
@@ -139,19 +135,19 @@ def chair(
     seat_height: Annotated[float, Range(0.25, 0.75)] = 0.48,
     seat_thickness: Annotated[float, Range(0.04, 0.9, when=lambda p: p.base != "plinth")] = 0.12,
     back_thickness: Annotated[float, Range(0.02, 0.25)] = 0.05,
-    lean: Annotated[float, Range(0, 0.5)] = 0.15,
-    curve: Annotated[float, Range(0, 90)] = 20,
+    lean: Annotated[float, Range(0, 0.4)] = 0.15,
+    curve: Annotated[float, Range(0, 75)] = 20,
     leg: Annotated[
         float, Range(0.025, 0.12, when=lambda p: p.base != "plinth" or p.rails > 0 or p.arms == "open")
     ] = 0.06,
-    splay: Annotated[float, Range(0, 0.3, when=lambda p: p.base in ("legs", "turned"))] = 0.05,
-    gap: Annotated[float, Range(0.3, 0.8, when=lambda p: p.rails > 0)] = 0.5,
-    arm_height: Annotated[float, Range(0.2, 0.7, when=lambda p: p.arms != "none")] = 0.4,
+    splay: Annotated[float, Range(0, 0.3, when=lambda p: p.base == "legs")] = 0.05,
+    gap: Annotated[float, Range(0.25, 0.75, when=lambda p: p.rails > 0)] = 0.5,
+    arm_height: Annotated[float, Range(0.15, 0.8, when=lambda p: p.arms != "none")] = 0.4,
     rails: Annotated[int, Range(0, 4)] = 2,
     slats: Annotated[int, Range(0, 4, when=lambda p: p.rails == 1)] = 0,
-    stretchers: Annotated[int, Range(0, 3, when=lambda p: p.base in ("legs", "turned"))] = 0,
+    stretchers: Annotated[int, Range(0, 3, when=lambda p: p.base == "legs")] = 0,
     feet: Annotated[int, Range(3, 6, when=lambda p: p.base == "star")] = 5,
-    base: Literal["legs", "turned", "sled", "pedestal", "star", "plinth"] = "legs",
+    base: Literal["legs", "sled", "pedestal", "star", "plinth"] = "legs",
     arms: Literal["none", "open", "solid"] = "none",
 ):
     return grammar.derive(

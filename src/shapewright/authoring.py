@@ -87,8 +87,10 @@ def fit(
             found = _replicate(procedure, crew, judge, lesson, settings, stages, found)
     builds, distances, predictor = [build for build in found.builds if build], found.distances, lesson.predictor
     stages.begin("compare", len(references))
-    groups = judge.groups(distances)
-    results = _results(procedure, references, builds, distances, judge.overlaps(builds), groups, judge.metric.threshold)
+    (iou, surface), depth = judge.overlaps(builds), judge.depths(builds)
+    compatible = judge.compatible(distances, iou, depth)
+    groups = judge.groups(compatible)
+    results = _results(procedure, references, builds, (distances, iou, surface, depth), compatible, groups)
     stages.begin("picture", 1)
     pictures = draw_pictures(results, settings.workers)
     stages.end()
@@ -102,6 +104,9 @@ def fit(
         source=procedure.source,
         collection={
             "source": references.source,
+            "origins": list(references.origins),
+            "up": references.up,
+            "front": references.front,
             "count": len(references),
             "skipped": {str(path): reason for path, reason in references.skipped.items()},
         },
@@ -205,11 +210,11 @@ def _results(
     procedure: Procedure,
     references: Collection,
     builds: Sequence[Build],
-    distances: NDArray[np.float64],
-    overlaps: tuple[NDArray[np.float64], NDArray[np.float64]],
+    measures: Sequence[NDArray[np.float64]],
+    compatible: NDArray[np.bool_],
     groups: Sequence[Group],
-    threshold: float,
 ) -> tuple[Result, ...]:
+    """measures: distance, IoU, Chamfer distance and depth difference of each build."""
     group_of = {name: i for i, found in enumerate(groups) for name in found.members}
     return tuple(
         Result(
@@ -222,12 +227,15 @@ def _results(
             distance=float(distance),
             iou=float(iou),
             chamfer=float(surface),
-            compatible=bool(distance <= threshold),
+            compatible=bool(same),
             group=group_of.get(reference.name),
             reference=reference.shape,
             error=_error(build, distance),
+            depth=float(depth),
         )
-        for reference, build, distance, iou, surface in zip(references, builds, distances, *overlaps, strict=True)
+        for reference, build, same, distance, iou, surface, depth in zip(
+            references, builds, compatible, *measures, strict=True
+        )
     )
 
 

@@ -1,4 +1,4 @@
-"""The command line: new, fit, evaluate, sample, report, compare, demo."""
+"""The command line: new, fit, explain, mark, evaluate, sample, silhouettes, report, compare, studio, demo."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import typer
 from rich.console import Console
 from rich.markup import escape
 
+from shapewright import commands
 from shapewright.options import (
     Cameras,
     Device,
@@ -31,6 +32,8 @@ from shapewright.options import (
 from shapewright.procedure import ProcedureError, load_procedure
 from shapewright.references.errors import CollectionError
 from shapewright.settings import Settings
+from shapewright.studio.command import studio
+from shapewright.studio.project import ProjectError
 from shapewright.workspace import (
     RunError,
     cache_folder,
@@ -54,7 +57,7 @@ app = typer.Typer(
     epilog="Start with [bold]shapewright demo[/], or with [bold]shapewright new chairs[/] for a project of your own.",
 )
 out, err = Console(), Console(stderr=True)
-_HANDLED = (ProcedureError, CollectionError, RunError, ValueError, OSError)
+_HANDLED = (ProcedureError, CollectionError, RunError, ProjectError, ValueError, OSError)
 
 
 @app.command()
@@ -66,7 +69,9 @@ def new(name: Annotated[Path, typer.Argument(help="The folder to make.")]) -> No
     shutil.copyfile(Path(__file__).with_name("starter.py"), name / "procedure.py")
     out.print(f"made {escape(str(name))}/procedure.py and {escape(str(name))}/references/", highlight=False)
     out.print("\nPut meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF) into references, then:\n")
-    out.print(f"  cd {escape(str(name))}\n  shapewright fit procedure.py references", highlight=False)
+    place = escape(str(name))
+    out.print(f"  shapewright studio {place}\n\nor, without a browser:\n", highlight=False)
+    out.print(f"  cd {place}\n  shapewright fit procedure.py references", highlight=False)
 
 
 @app.command()
@@ -89,10 +94,15 @@ def fit(
         typer.Option("--from", help="A run of an earlier version to go on from: quicker, and what was found stays."),
     ] = None,
     device: Device = "auto",
-    threshold: Annotated[float, typer.Option(help="Largest distance of a compatible mesh.")] = Settings.threshold,
+    threshold: Annotated[
+        float | None, typer.Option(help="Largest distance of a compatible mesh.  [dim]default: 0.18[/]")
+    ] = None,
     fidelity: Annotated[
         float, typer.Option(help="Least visual information fidelity of a compatible drawing.")
     ] = Settings.fidelity,
+    marks: Annotated[
+        bool, typer.Option("--marks", help="Judge as the project's marks say: see [bold]shapewright mark[/].")
+    ] = False,
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
     ] = "free",
@@ -104,6 +114,7 @@ def fit(
     front: Front = None,
     time_limit: Annotated[float, typer.Option(help="Seconds that building one shape may take.")] = 10.0,
     memory_limit: Annotated[int, typer.Option(help="Megabytes that building one shape may take.")] = 2048,
+    explain: Annotated[bool, typer.Option("--explain", help="Say why, and what to write next.")] = False,
     workers: Workers = None,
     json: Json = False,
 ) -> None:
@@ -112,14 +123,13 @@ def fit(
 
     folder = (out_dir or next_run(Path("runs"))).absolute()
     check_free(folder)
-    given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
+    given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine, threshold=threshold)
     settings = Settings.preset(
         preset,
-        **given,
+        **{**(commands.judged_by_marks(folder) if marks else {}), **given},
         seed=seed,
         rounds=rounds,
         device=device,
-        threshold=threshold,
         fidelity=fidelity,
         align=align,
         facing=facing,
@@ -130,11 +140,15 @@ def fit(
     earlier = _load_run(previous) if previous else None
     author, loaded = load_procedure(procedure), _load(references, up, front)
     check_writable(folder)
-    iteration, folder = _fit(author, loaded, settings, folder, earlier)
+    iteration, folder = _fit(author, loaded, settings, folder, earlier, explain)
     if json:
         print_json(iteration_record(iteration, folder))
     else:
         print_iteration(out, iteration, folder)
+
+
+app.command()(commands.explain)
+app.command()(commands.mark)
 
 
 @app.command()
@@ -286,6 +300,9 @@ def compare(
         print_comparison(out, before, after, comparison)
 
 
+app.command()(studio)
+
+
 @app.command()
 def demo(
     out_dir: Annotated[Path, typer.Option("--out", help="Folder for the demo's references and runs.")] = Path(
@@ -313,8 +330,12 @@ def demo(
         iteration, folder = _fit(load_procedure(procedures.path(version, drawings)), loaded, settings, folder)
         if not json:
             print_iteration(out, iteration, folder)
+    if not (out_dir / "procedure.py").exists():
+        shutil.copyfile(procedures.path(version), out_dir / "procedure.py")
     if json:
         print_json(iteration_record(iteration, folder))
+    else:
+        out.print(f"\nto go on from here in the browser: shapewright studio {escape(str(out_dir))}", highlight=False)
 
 
 def _load(references: str, up: str, front: str | None) -> Collection:
@@ -335,25 +356,31 @@ def _load_run(folder: Path) -> Iteration:
 
 
 def _fit(
-    procedure: Procedure, references: Collection, settings: Settings, folder: Path, previous: Iteration | None = None
+    procedure: Procedure,
+    references: Collection,
+    settings: Settings,
+    folder: Path,
+    previous: Iteration | None = None,
+    explained: bool = False,
 ) -> tuple[Iteration, Path]:
-    """Run and save one iteration; returns it and the folder that it is in."""
+    """Run and save one iteration, explained if wanted; returns it and the folder that it is in."""
     from shapewright.authoring import fit as iterate
     from shapewright.console import progress_bars
 
     try:
         with progress_bars(err) as listen:
             iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
+            also = commands.explanation_of(procedure, references, iteration, listen) if explained else None
     except KeyboardInterrupt:
         err.print("stopped: nothing of this run was written; earlier runs are as they were")
         raise typer.Exit(130) from None
     before = previous_run(folder, set(iteration.names))
     try:
-        return iteration, iteration.save(folder, before)
+        return iteration, iteration.save(folder, before, also)
     except RunError as error:
         refuge = next_run(Path(tempfile.gettempdir()) / "shapewright-runs")
         err.print(f"[red]{escape(str(error))}[/]\nsaving to {escape(str(refuge))} instead", highlight=False)
-        iteration.save(refuge)
+        iteration.save(refuge, also=also)
         raise RunError(f"{error}\nThe run is whole in {refuge}; free some space and move it") from error
 
 

@@ -18,7 +18,7 @@ _CLEARLY = 0.9
 def quarter_turns(references: Collection, predictor: Predictor, crew: Workers) -> list[int]:
     """How many quarter turns, 0 to 3, bring each reference to face as the procedure's shapes do.
 
-    Each is predicted and built in all four positions; the costs of the replicas decide.
+    Each mesh is predicted and built in all four positions; the costs of the replicas decide.
     """
     costs = np.array(
         [_costs(references.turned([quarters] * len(references)), predictor, crew) for quarters in range(4)]

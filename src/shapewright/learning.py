@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -144,7 +145,8 @@ def _train(
     stages.begin("train", schedule.epochs)
 
     def tell(epoch: Epoch) -> None:
-        stages.step(epoch.epoch, schedule.epochs, f"validation loss {epoch.validation:.3f}")
+        losses = {name: value if math.isfinite(value) else None for name, value in vars(epoch).items()}
+        stages.step(epoch.epoch, schedule.epochs, f"validation loss {epoch.validation:.3f}", losses)
 
     initial = previous.network if previous else None
     trained = train_network(procedure.space, training, validation, schedule, tell, settings.workers, initial)

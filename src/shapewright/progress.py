@@ -13,7 +13,8 @@ from shapewright.parameters import Parameters
 class Progress:
     """A stage of an iteration: how many of its steps are done, and a remark.
 
-    answer: the parameters of every reference as far as they are known by now, when these are news.
+    answer: the parameters of every reference as far as they are known by now, when these are news. losses: of the epoch
+    of training that ended: epoch, train, validation (None where nothing was held back).
     """
 
     stage: str
@@ -21,6 +22,7 @@ class Progress:
     total: int
     remark: str = ""
     answer: Mapping[str, Parameters] | None = field(default=None, repr=False)
+    losses: Mapping[str, float | None] | None = field(default=None, repr=False)
 
     def __str__(self) -> str:
         return f"{self.stage} {self.done}/{self.total}{' ' + self.remark if self.remark else ''}"
@@ -49,12 +51,12 @@ class Stages:
         self._done, self._total = 0, total
         self.step(0, total)
 
-    def step(self, done: int, total: int, remark: str = "") -> None:
+    def step(self, done: int, total: int, remark: str = "", losses: Mapping[str, float | None] | None = None) -> None:
         now = time.perf_counter()
         self._done, self._total = done, total
         if self._listener and (now - self._told >= self.INTERVAL or done >= total):
             self._told = now
-            self._listener(Progress(self._stage, done, total, remark))
+            self._listener(Progress(self._stage, done, total, remark, losses=losses))
 
     def answer(self, answer: Mapping[str, Parameters], remark: str) -> None:
         """Tell the parameters found so far; never held back."""

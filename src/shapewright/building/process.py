@@ -18,20 +18,32 @@ from shapewright.parameters import Parameters
 from shapewright.procedure import ProcedureError
 
 _START_SECONDS = 60.0
+_STEP = 0.1
 _SINGLE_THREADED = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 
 class WorkerProcess:
-    """One worker process and the connection to it."""
+    """One worker process and the connection to it.
 
-    def __init__(self, payload: bytes, limits: Limits) -> None:
+    program: the module that it runs. patience: seconds until it must have read the procedure's file. stop: leave off
+    waiting for that. ready: what it answers then.
+    """
+
+    def __init__(
+        self,
+        payload: bytes,
+        limits: Limits,
+        program: str = "shapewright.building.worker",
+        patience: float = _START_SECONDS,
+        stop: threading.Event | None = None,
+    ) -> None:
         self.limits = limits
         key = secrets.token_bytes(32)
         with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
             address = None if sys.platform == "win32" else str(Path(folder) / "worker")
             with Listener(address, authkey=key) as listener:
                 self.process = subprocess.Popen(
-                    [sys.executable, "-m", "shapewright.building.worker", str(listener.address)],
+                    [sys.executable, "-m", program, str(listener.address)],
                     stdin=subprocess.PIPE,
                     stdout=sys.stderr.fileno() if _has_descriptor(sys.stderr) else subprocess.DEVNULL,
                     env={**os.environ, **_SINGLE_THREADED},
@@ -42,21 +54,30 @@ class WorkerProcess:
                 self.connection = self._accept(listener)
         self.connection.send_bytes(payload)
         self.connection.send(limits)
-        if not self.connection.poll(_START_SECONDS):
+        waited = 0.0
+        while not self.connection.poll(_STEP):
+            waited += _STEP
+            if waited >= patience or (stop and stop.is_set()):
+                self.stop()
+                message = f"a worker process read the procedure's file and did not answer within {waited:g} s"
+                raise ProcedureError(message)
+        self.ready = self._receive()
+        if isinstance(self.ready, Failure):
             self.stop()
-            raise ProcedureError("a worker process read the procedure's file and did not answer within a minute")
-        ready = self._receive()
-        if isinstance(ready, Failure):
-            self.stop()
-            raise ProcedureError(ready.message)
+            raise ProcedureError(self.ready.message)
 
     def ask(self, parameters: list[Parameters], stop: threading.Event) -> list[Build] | Failure:
         """The builds of the first few vectors (at least one), or the failure that ended the worker.
 
         A worker answers after a fraction of the time limit at the latest, unless a shape exceeds the limit itself.
         """
+        answer: list[Build] | Failure = self.exchange(parameters, stop)
+        return answer
+
+    def exchange(self, request: Any, stop: threading.Event) -> Any:
+        """What the worker answers, or the failure that ended it; stop: leave off waiting, the worker is then lost."""
         try:
-            self.connection.send(parameters)
+            self.connection.send(request)
             patience = 1.25 * self.limits.seconds + 0.5
             while not self.connection.poll(min(0.2, patience)):
                 patience -= 0.2
@@ -64,8 +85,7 @@ class WorkerProcess:
                     return Failure("time", f"it took longer than {self.limits.seconds:g} s")
         except OSError:
             return self._death()
-        answer: list[Build] | Failure = self._receive()
-        return answer
+        return self._receive()
 
     def _receive(self) -> Any:
         try:

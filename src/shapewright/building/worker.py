@@ -28,7 +28,7 @@ def serve(connection: Connection) -> None:
     except ProcedureError as error:
         connection.send(Failure("raised", str(error)))
         return
-    _limit_memory(limits.memory_mb)
+    limit_memory(limits.memory_mb)
     connection.send("ready")
     while True:
         requests: list[Parameters] = connection.recv()
@@ -40,13 +40,14 @@ def _build_some(procedure: Procedure, requests: list[Parameters], limits: Limits
     started = time.perf_counter()
     builds: list[Build] = []
     for parameters in requests:
-        builds.append(_build(procedure, parameters, limits))
+        builds.append(build(procedure, parameters, limits))
         if time.perf_counter() - started > _ANSWER_WITHIN * limits.seconds:
             break
     return builds
 
 
-def _build(procedure: Procedure, parameters: Parameters, limits: Limits) -> Build:
+def build(procedure: Procedure, parameters: Parameters, limits: Limits) -> Build:
+    """Call the procedure in this process; whatever it raises is part of the result."""
     started = time.perf_counter()
     shape, failure = None, None
     try:
@@ -62,7 +63,7 @@ def _build(procedure: Procedure, parameters: Parameters, limits: Limits) -> Buil
     return Build(parameters, shape, failure, time.perf_counter() - started)
 
 
-def _limit_memory(megabytes: int) -> None:
+def limit_memory(megabytes: int) -> None:
     """Cap the address space at what is mapped now plus the limit; on systems without rlimits there is no cap."""
     try:
         import resource

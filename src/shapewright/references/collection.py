@@ -75,11 +75,15 @@ class Collection:
     They are all meshes, or all drawings; CollectionError is raised for a mixture.
 
     skipped: the files that could not be read, with the reason. source: where the collection came from, in words.
+    origins: absolute paths or patterns to load it from again, none for one made in memory; up, front: their axes.
     """
 
     references: tuple[Reference, ...]
     skipped: Mapping[Path, str] = field(default_factory=dict)
     source: str = "memory"
+    origins: tuple[str, ...] = ()
+    up: str = "y"
+    front: str | None = None
 
     def __post_init__(self) -> None:
         drawings = [reference.name for reference in self if isinstance(reference.shape, Drawing)]
@@ -110,15 +114,14 @@ class Collection:
         skipped: dict[Path, str] = {}
         for file in sources.find(origins, up, front):
             try:
-                shape, notes = files.read(file.path)
+                references.append(read_reference(file))
             except UnreadableError as error:
                 skipped[file.path] = str(error)
-            else:
-                references.append(_normalised(file.name, file.path, shape, file.orientation, notes))
         if not references:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
-        return cls(tuple(references), skipped, os.fspath(origins[0]) + more)
+        again = tuple(str(Path(origin).expanduser().absolute()) for origin in origins)
+        return cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front)
 
     @classmethod
     def of(cls, shapes: Mapping[str, Any], *, up: str = "y", front: str | None = None) -> Collection:
@@ -168,6 +171,12 @@ class Collection:
     def __repr__(self) -> str:
         skipped = f", {len(self.skipped)} skipped" if self.skipped else ""
         return f"Collection({len(self)} references from {self.source}{skipped})"
+
+
+def read_reference(source: sources.Source) -> Reference:
+    """One file of those that ``sources.find`` lists. Raises UnreadableError, with the reason."""
+    shape, notes = files.read(source.path)
+    return _normalised(source.name, source.path, shape, source.orientation, notes)
 
 
 def _normalised(

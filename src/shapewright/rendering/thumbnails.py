@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from shapewright.rendering import ink
-from shapewright.rendering.cameras import THUMBNAIL, pack
+from shapewright.rendering.cameras import THUMBNAIL, Camera, pack
 from shapewright.rendering.raster import AMBIENT, draw_view
 from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.threads import in_threads
@@ -30,13 +30,13 @@ _GREYS = 32
 _PLAIN = 150
 
 
-def thumbnail(shape: Shape, size: int = 256) -> bytes:
-    """A picture of a shape as PNG bytes: grey and alpha, size x size pixels; a mesh from the right and a little above.
+def thumbnail(shape: Shape, size: int = 256, camera: Camera = THUMBNAIL) -> bytes:
+    """A picture of a shape as PNG bytes: grey and alpha, size x size pixels; a mesh as a camera sees it.
 
     The shape is normalised first, so that the whole of it is in the picture whatever its size and place.
     Raises ValueError for a mesh without faces or of no size.
     """
-    return _png(_shaded(shape, size) if isinstance(shape, Mesh) else _plain(shape, size))
+    return _png(_shaded(shape, size, camera) if isinstance(shape, Mesh) else _plain(shape, size))
 
 
 def thumbnails(shapes: Sequence[Shape], size: int = 256, threads: int | None = None) -> list[bytes]:
@@ -53,14 +53,14 @@ def _plain(drawing: Drawing, size: int) -> NDArray[np.uint8]:
     return np.stack([np.full_like(alpha, _PLAIN), alpha], axis=-1)
 
 
-def _shaded(mesh: Mesh, size: int) -> NDArray[np.uint8]:
+def _shaded(mesh: Mesh, size: int, camera: Camera) -> NDArray[np.uint8]:
     normalised = mesh.normalised()
-    camera = pack([THUMBNAIL])[0]
+    packed = pack([camera])[0]
     side = size * SUPERSAMPLE
     shade, inverse_depth = np.empty((2, side, side), dtype=np.float32)
-    draw_view(normalised.vertices, normalised.faces, camera, np.empty_like(normalised.vertices), shade, inverse_depth)
+    draw_view(normalised.vertices, normalised.faces, packed, np.empty_like(normalised.vertices), shade, inverse_depth)
     picture = np.empty((size, size, 2), dtype=np.uint8)
-    _ink(shade, inverse_depth, 2.0 / (side * camera[10]), picture)
+    _ink(shade, inverse_depth, 2.0 / (side * packed[10]), picture)
     return picture
 
 

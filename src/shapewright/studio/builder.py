@@ -1,0 +1,106 @@
+"""The program of the studio's builder process: one version of the procedure, and one shape after another of it.
+
+Only this process runs the author's code. It says which parameters matter as well as what they build, because a ``when``
+is the author's code too, and it stops code that takes too long at the author's line; what does not stop (a loop in a
+library written in C) is killed by the parent.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import pickle
+import signal
+import sys
+from collections.abc import Iterator
+from multiprocessing.connection import Client, Connection
+from pathlib import Path
+from types import FrameType
+
+from shapewright.building.outcomes import Build, Failure, Limits
+from shapewright.building.worker import build, limit_memory
+from shapewright.parameters import Parameters
+from shapewright.procedure import Procedure, ProcedureError, author_line, load_procedure
+from shapewright.records import to_record
+from shapewright.results import at_limit
+from shapewright.shapes import Mesh
+from shapewright.studio.built import Built, Version
+
+LOADING_SECONDS = 20.0
+"""What reading the author's file may take, its imports included."""
+MOST_TRIANGLES = 400_000
+"""More than a page can turn smoothly."""
+
+
+class TimeLimit(BaseException):
+    """The author's code took too long. Not an Exception, so that the author's ``except Exception`` lets it pass."""
+
+
+@contextlib.contextmanager
+def time_limit(seconds: float) -> Iterator[None]:
+    """Raise TimeLimit in the block after so many seconds; on systems without timers the block takes what it takes."""
+    if not hasattr(signal, "setitimer"):
+        yield
+        return
+
+    def expire(number: int, frame: FrameType | None) -> None:
+        raise TimeLimit(f"it took longer than {seconds:g} s")
+
+    signal.signal(signal.SIGALRM, expire)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+
+
+def try_build(procedure: Procedure, values: Parameters, limits: Limits) -> Built:
+    """Build the shape at these values, carried over into the procedure's space."""
+    try:
+        with time_limit(limits.seconds):
+            parameters = procedure.space.carry(values)
+            made = build(procedure, parameters, limits)
+            if isinstance(made.shape, Mesh) and len(made.shape.faces) > MOST_TRIANGLES:
+                much = f"{len(made.shape.faces)} triangles are more than the studio shows ({MOST_TRIANGLES})"
+                return Built(Build(parameters, None, Failure("no shape", much), made.seconds))
+            return Built(made, procedure.space.active(parameters), at_limit(procedure.space, parameters))
+    except TimeLimit as error:
+        return Built(Build(dict(values), None, Failure("time", author_line(error, procedure.path))))
+    except ValueError as error:  # a `when` failed
+        return Built(Build(dict(values), None, Failure("raised", f"{procedure.where}: {error}")))
+
+
+def serve(connection: Connection) -> None:
+    """Answer requests, a mapping of values each, until the other side hangs up."""
+    target, search_path = pickle.loads(connection.recv_bytes())
+    limits: Limits = connection.recv()
+    sys.path[:] = search_path
+    try:
+        with time_limit(LOADING_SECONDS):
+            procedure = load_procedure(target)
+            version = _version(procedure)
+    except TimeLimit as error:
+        connection.send(Failure("time", author_line(error, Path(target))))
+        return
+    except ProcedureError as error:
+        connection.send(Failure("raised", str(error)))
+        return
+    limit_memory(limits.memory_mb)
+    connection.send(version)
+    while True:
+        connection.send(try_build(procedure, connection.recv(), limits))
+
+
+def _version(procedure: Procedure) -> Version:
+    parameters = [{**to_record(p), "conditional": p.when is not None} for p in procedure.space]
+    return Version(procedure.name, parameters, procedure.space.defaults)
+
+
+def main() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    key = sys.stdin.buffer.read(32)
+    with contextlib.suppress(EOFError, ConnectionError), Client(sys.argv[1], authkey=key) as connection:
+        serve(connection)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,45 @@
+"""How meshes travel to the page, and messages between the server and its bench."""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Mapping
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+_KINDS = {"f4": "f32", "u4": "u32", "i4": "i32"}
+Buffers = Mapping[str, NDArray[Any]]
+
+
+def binary(header: Mapping[str, Any], buffers: Buffers) -> bytes:
+    """A binary message: u32 length of the header, the header as JSON, the buffers; all little-endian, 4-byte aligned.
+
+    The header's entry ``buffers`` says name, kind and number of values of each. buffers: float32, uint32 or int32.
+    """
+    described = [[name, _KINDS[array.dtype.str[1:]], array.size] for name, array in buffers.items()]
+    text = json.dumps({**header, "buffers": described}, allow_nan=False, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    arrays = (np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<")) for array in buffers.values())
+    return b"".join([struct.pack("<I", len(text)), text, *(array.tobytes() for array in arrays)])
+
+
+def parse(message: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """The inverse of ``binary``. Raises ValueError for a message that is cut short."""
+    (length,) = struct.unpack_from("<I", message)
+    header = json.loads(message[4 : 4 + length])
+    kinds = {kind: f"<{code}" for code, kind in _KINDS.items()}
+    buffers, start = {}, 4 + length
+    for name, kind, count in header["buffers"]:
+        buffers[name] = np.frombuffer(message, dtype=kinds[kind], count=count, offset=start)
+        start += 4 * count
+    return header, buffers
+
+
+def write_envelope(stream: BinaryIO, envelope: Mapping[str, Any], payload: bytes = b"") -> None:
+    """A line of JSON, which says how many bytes follow it, and these."""
+    line = json.dumps({**envelope, "size": len(payload)}, allow_nan=False, separators=(",", ":"))
+    stream.write(line.encode() + b"\n" + payload)
+    stream.flush()

@@ -1,0 +1,58 @@
+"""Requests that wait for the bench, the most urgent first."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import Any
+
+Request = dict[str, Any]
+
+
+class Inbox:
+    """Filled by one thread, emptied by another.
+
+    Of evaluations only each client's newest counts; they come before fetches, all other requests before them. A new
+    procedure sets ``interrupt``, so that nobody waits for the old one; taking it up clears that.
+    """
+
+    def __init__(self, interrupt: threading.Event) -> None:
+        self._interrupt = interrupt
+        self._arrived = threading.Condition()
+        self._live: dict[int, Request] = {}
+        self._others: deque[Request] = deque()
+
+    def put(self, request: Request) -> None:
+        with self._arrived:
+            if request["do"] == "evaluate":
+                self._live.pop(request["client"], None)
+                self._live[request["client"]] = request
+            else:
+                if request["do"] == "load":
+                    self._others = deque(other for other in self._others if other["do"] != "load")
+                self._others.append(request)
+            if request["do"] in ("load", "end"):
+                self._interrupt.set()
+            self._arrived.notify()
+
+    @property
+    def waiting(self) -> bool:
+        """Whether there is a request."""
+        return bool(self._live or self._others)
+
+    @property
+    def outdated(self) -> bool:
+        """Whether what is being answered is no longer what anyone waits for."""
+        return bool(self._live) or any(request["do"] in ("load", "end") for request in list(self._others))
+
+    def take(self, wait: bool) -> Request | None:
+        """The next request; without one wait for it, or return None."""
+        with self._arrived:
+            while wait and not self.waiting:
+                self._arrived.wait()
+            if self._live and (not self._others or self._others[0]["do"] == "fetch"):
+                return self._live.pop(next(iter(self._live)))
+            request = self._others.popleft() if self._others else None
+            if request and request["do"] == "load":
+                self._interrupt.clear()
+            return request

@@ -1,0 +1,81 @@
+"""Errors that the author can mend, with the author's line, as the page shows them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from shapewright.building.outcomes import Failure
+from shapewright.parameters import Parameters
+
+# What author_line, load_procedure and Procedure.where write: FILE:LINE, perhaps the function, the message, the line.
+_POINTED = re.compile(r"(?P<file>(?:[A-Za-z]:[/\\])?[^:\n]+?\.py):(?P<line>\d+)(?:, \w+\(\))?: ")
+_QUOTED = re.compile(r"(?P<message>.*?)(?:  \((?P<text>.*)\))?", re.S)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What went wrong. kind: see PROTOCOL.md. file, line, text: the author's. slugs: the shapes that it befell."""
+
+    kind: str
+    message: str
+    file: str | None = None
+    line: int | None = None
+    text: str | None = None
+    slugs: tuple[str, ...] = ()
+    parameters: Parameters | None = None
+
+    def record(self) -> dict[str, Any]:
+        """As the page gets it."""
+        return {**asdict(self), "slugs": list(self.slugs), "count": len(self.slugs) or None}
+
+    @classmethod
+    def from_record(cls, record: dict[str, Any]) -> Problem:
+        """The inverse of ``record``."""
+        known = {name: record[name] for name in cls.__dataclass_fields__ if name in record}
+        return cls(**{**known, "slugs": tuple(record.get("slugs", ()))})
+
+
+def problem(kind: str, message: str, root: Path, parameters: Parameters | None = None) -> Problem:
+    """Take a message of ours apart; the file is named relative to ``root``. Where it does not begin with a place but
+    holds one, it stays whole."""
+    found = _POINTED.search(message)
+    if not found:
+        return Problem(kind, message, parameters=parameters)
+    file = Path(found["file"].strip())
+    name = file.relative_to(root).as_posix() if file.is_relative_to(root) else str(file)
+    if found.start():
+        return Problem(kind, message, name, int(found["line"]), parameters=parameters)
+    rest = _QUOTED.fullmatch(message[found.end() :])
+    assert rest is not None
+    return Problem(kind, rest["message"], name, int(found["line"]), rest["text"], parameters=parameters)
+
+
+def of_failure(failure: Failure, root: Path, parameters: Parameters | None = None) -> Problem:
+    """Of a shape that could not be built."""
+    return problem(failure.kind, failure.message, root, parameters)
+
+
+def syntax_problem(path: Path, root: Path) -> Problem | None:
+    """Of a file that Python cannot parse; None for one that it can. Nothing of it is run."""
+    try:
+        compile(path.read_bytes(), str(path), "exec")
+    except SyntaxError as error:
+        file = path.relative_to(root).as_posix()
+        return Problem("syntax", error.msg, file, error.lineno, (error.text or "").strip() or None)
+    except (ValueError, RecursionError, MemoryError, OSError) as error:
+        return Problem("syntax", str(error) or type(error).__name__, path.relative_to(root).as_posix())
+    return None
+
+
+def together(problems: Iterable[Problem]) -> list[Problem]:
+    """One problem for all shapes that failed alike, the commonest first; infeasible ones come last."""
+    alike: dict[tuple[str, str, int | None], Problem] = {}
+    for each in problems:
+        key = (each.kind, each.message, each.line)
+        known = alike.get(key)
+        alike[key] = replace(known, slugs=known.slugs + each.slugs) if known else each
+    return sorted(alike.values(), key=lambda each: (each.kind == "infeasible", -len(each.slugs)))

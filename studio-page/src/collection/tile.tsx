@@ -1,0 +1,106 @@
+/** One reference and its replica. */
+
+import { useComputed } from "@preact/signals";
+import type { ComponentChildren } from "preact";
+import { useEffect, useMemo, useRef } from "preact/hooks";
+import { inspect } from "../state/route";
+import { Icon } from "../ui/icons";
+import { fixed } from "../ui/numbers";
+import { Dot, Picture } from "../ui/picture";
+import type { Tile } from "../wire/protocol";
+import { at } from "./focus";
+import { watch } from "./visible";
+
+const STAGES: Partial<Record<Tile["stage"], [string, string]>> = {
+  carried: ["carried", "Parameters carried over from the version before"],
+  early: ["early", "The most similar of the first samples"],
+  predicted: ["predicted", "As predicted, before the search"],
+};
+
+/** Drawn anew only when its tile changes: there may be hundreds, and a fit changes them often. */
+export function TileCard({ tile, children }: Props) {
+  return useMemo(() => <Card tile={tile}>{children}</Card>, [tile, children]);
+}
+
+interface Props {
+  tile: Tile;
+  children?: ComponentChildren;
+}
+
+function Card({ tile, children }: Props) {
+  const stage = STAGES[tile.stage];
+  const { slug } = tile;
+  const button = useRef<HTMLButtonElement>(null);
+  useEffect(() => watch(button.current!), [slug]);
+  const tabIndex = useComputed(() => (at.value === slug ? 0 : -1));
+  return (
+    <article class={`tile ${tile.stale ? "stale" : ""}`}>
+      <button
+        type="button"
+        class="pair"
+        ref={button}
+        data-tile={tile.slug}
+        tabIndex={tabIndex}
+        aria-label={`${tile.name}, ${describe(tile)}`}
+        onFocus={() => (at.value = tile.slug)}
+        onClick={() => inspect(tile.slug)}
+      >
+        <Picture url={tile.reference} tint={null} alt="reference" />
+        <Picture url={tile.replica} tint={tile.colour} alt="replica" dim={tile.stale} />
+      </button>
+      <footer>
+        <span class="name" title={tile.name}>
+          {tile.name}
+        </span>
+        {tile.problem && (
+          <span class="badge bad" title={tile.problem.message}>
+            <Icon name="warn" />
+          </span>
+        )}
+        {tile.at_limit.length > 0 && (
+          <span class="badge warn" title={`At the end of its Range: ${tile.at_limit.join(", ")}`}>
+            <Icon name="limit" />
+          </span>
+        )}
+        {tile.stale ? (
+          <span class="badge" title="Made by an older version of the procedure">
+            stale
+          </span>
+        ) : (
+          stage && (
+            <span class="badge" title={stage[1]}>
+              {stage[0]}
+            </span>
+          )
+        )}
+        <Change tile={tile} />
+        {tile.replica && (
+          <span class="distance" title="Distance from the reference">
+            <Dot colour={tile.colour} />
+            {fixed(tile.distance)}
+          </span>
+        )}
+      </footer>
+      {children}
+    </article>
+  );
+}
+
+function describe(tile: Tile): string {
+  if (tile.problem) return tile.problem.message;
+  if (tile.distance === null) return "not measured yet";
+  return `distance ${fixed(tile.distance)}, ${tile.compatible ? "compatible" : "incompatible"}`;
+}
+
+/** By how much it came nearer or went away since the run before, where that is worth saying. */
+function Change({ tile }: { tile: Tile }) {
+  if (tile.previous === null || tile.distance === null) return null;
+  const moved = tile.distance - tile.previous;
+  if (Math.abs(moved) < 0.02) return null;
+  return (
+    <span class={`change ${moved < 0 ? "better" : "worse"}`} title={`${fixed(tile.previous)} in the run before`}>
+      {moved < 0 ? "↓" : "↑"}
+      {fixed(Math.abs(moved), 2)}
+    </span>
+  );
+}

@@ -1,0 +1,168 @@
+/** The collection: what cannot be replicated yet first, in groups, largest first; what can, folded. */
+
+import { useEffect } from "preact/hooks";
+import { useKeys } from "../state/keys";
+import { inspect, route } from "../state/route";
+import { collection, fitting, project } from "../state/studio";
+import { Button, Empty } from "../ui/controls";
+import { Icon } from "../ui/icons";
+import { plural } from "../ui/numbers";
+import { at, focusOn, move } from "./focus";
+import { GroupCard } from "./group";
+import { compatibleOpen, filter, leafed, search, searching, sections, toggleGroup } from "./order";
+import type { Section } from "./order";
+import { TileCard } from "./tile";
+import { searchField, Toolbar } from "./toolbar";
+
+export function CollectionView() {
+  const inspecting = route.value.slug !== null;
+  useEffect(() => {
+    if (!inspecting) focusOn(at.value);
+  }, [inspecting]);
+  const { count, skipped, run } = collection.value;
+  if (count === 0) return <NoReferences />;
+  return (
+    <>
+      <CollectionKeys inspecting={inspecting} />
+      <Toolbar />
+      <div class="collection">
+        {run === null && !fitting.value && (
+          <p class="hint">
+            Nothing is fitted yet. Press <b>Fit</b> to find, for each of these references, the parameters with which the
+            procedure comes nearest to it.
+          </p>
+        )}
+        {sections.value.length === 0 ? <NothingFound /> : <Sections />}
+        {skipped.length > 0 && (
+          <details class="skipped">
+            <summary>{plural(skipped.length, "file")} could not be read</summary>
+            <ul>
+              {skipped.map(({ path, reason }) => (
+                <li key={path}>
+                  <code>{path}</code> {reason}
+                </li>
+              ))}
+            </ul>
+          </details>
+        )}
+      </div>
+    </>
+  );
+}
+
+/** Keys of the collection rest while the inspector lies over it. */
+function CollectionKeys({ inspecting }: { inspecting: boolean }) {
+  return inspecting ? null : <ActiveKeys />;
+}
+
+function ActiveKeys() {
+  useKeys("Collection", [
+    { keys: ["ArrowRight", "n"], does: "next", run: () => move("next") },
+    { keys: ["ArrowLeft", "p"], does: "previous", run: () => move("previous") },
+    { keys: ["ArrowDown", "j"], does: "a row down", run: () => move("down") },
+    { keys: ["ArrowUp", "k"], does: "a row up", run: () => move("up") },
+    { keys: ["Enter"], does: "open in the inspector", run: openFocused },
+    { keys: ["o", " "], does: "open or close the group", run: toggleFocused },
+    { keys: ["c"], does: "fold or unfold the compatible", run: () => (compatibleOpen.value = !compatibleOpen.value) },
+    { keys: ["/"], does: "search", run: () => searchField.current?.focus() },
+  ]);
+  return null;
+}
+
+function openFocused(): void {
+  const slug = at.value ?? leafed.value[0];
+  if (slug) inspect(slug);
+}
+
+function toggleFocused(): void {
+  const section = sections.value.find(
+    ({ kind, tiles }) => kind === "group" && tiles.some(({ slug }) => slug === at.value),
+  );
+  const representative = section?.tiles[0]?.slug;
+  if (!representative || (section?.tiles.length ?? 0) < 2) return;
+  toggleGroup(representative);
+  at.value = representative;
+}
+
+function Sections() {
+  const groups = sections.value.filter(({ kind }) => kind === "group");
+  const others = sections.value.filter(({ kind }) => kind !== "group");
+  return (
+    <>
+      {groups.length > 0 && (
+        <section aria-label="Incompatible, in groups">
+          <h2>
+            Incompatible <small>{groups.reduce((sum, { tiles }) => sum + tiles.length, 0)}</small>
+            <span class="soft"> in {plural(groups.length, "group")}</span>
+          </h2>
+          <div class="tiles">
+            {groups.map(({ tiles }, i) => (
+              <GroupCard key={tiles[0]!.slug} tiles={tiles} number={i + 1} />
+            ))}
+          </div>
+        </section>
+      )}
+      {others.map((section) => (
+        <Plain key={section.kind} section={section} />
+      ))}
+    </>
+  );
+}
+
+function Plain({ section: { kind, tiles } }: { section: Section }) {
+  const folded = kind === "compatible" && filter.value === "all" && !searching.value && !compatibleOpen.value;
+  const title = {
+    loose: collection.value.run ? "Not in a group" : "References",
+    compatible: "Compatible",
+    all: "",
+    group: "",
+  }[kind];
+  return (
+    <section aria-label={title || "References"}>
+      {title && (
+        <h2>
+          {kind === "compatible" ? (
+            <button type="button" class="fold" aria-expanded={!folded} onClick={() => (compatibleOpen.value = folded)}>
+              <Icon name={folded ? "right" : "down"} />
+              {title} <small>{tiles.length}</small>
+            </button>
+          ) : (
+            <>
+              {title} <small>{tiles.length}</small>
+            </>
+          )}
+        </h2>
+      )}
+      {!folded && (
+        <div class="tiles">
+          {tiles.map((tile) => (
+            <TileCard key={tile.slug} tile={tile} />
+          ))}
+        </div>
+      )}
+    </section>
+  );
+}
+
+function NothingFound() {
+  const clear = () => {
+    search.value = "";
+    filter.value = "all";
+  };
+  return (
+    <Empty title="No reference is like that">
+      <Button onClick={clear}>Show all</Button>
+    </Empty>
+  );
+}
+
+function NoReferences() {
+  return (
+    <Empty title="No references yet">
+      <p>
+        Put meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF) into <code>{project.value.references}</code> in{" "}
+        <code>{project.value.folder}</code>. They appear here by themselves.
+      </p>
+    </Empty>
+  );
+}

@@ -1,0 +1,88 @@
+/** What to write next: changes of the procedure that were tried and helped. */
+
+import { copy } from "../state/actions";
+import { complain, tell } from "../state/notices";
+import { go, inspect } from "../state/route";
+import { procedure, tiles } from "../state/studio";
+import { Button } from "../ui/controls";
+import { plural } from "../ui/numbers";
+import { Picture } from "../ui/picture";
+import type { Suggestion } from "../wire/protocol";
+import { requests } from "../wire/requests";
+
+const SHOWN = 6;
+
+export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; index: number }) {
+  const { kind, title, text, snippet, picture, references, gain } = suggestion;
+  const toCopy = async () => {
+    try {
+      const { path } = await requests.applyToCopy(index);
+      tell(`Written to ${path}.`);
+    } catch (error) {
+      complain(error);
+    }
+  };
+  const toProcedure = async () => {
+    try {
+      const { digest, undo } = await requests.applyToProcedure(index, procedure.value.digest);
+      tell("The procedure has the suggestion in it.", {
+        label: "Undo",
+        run: () => void requests.saveSource(undo, digest).catch(complain),
+      });
+      go("loop");
+    } catch (error) {
+      complain(error);
+    }
+  };
+  return (
+    <article class="card suggestion">
+      {picture && <img src={picture} alt="" loading="lazy" />}
+      <div class="content">
+        <header>
+          <span class="badge cause">{kind.replaceAll("_", " ")}</span>
+          <h3>{title}</h3>
+          {gain !== null && gain !== undefined && (
+            <span class="gain" title="Further references that become compatible, as tried">
+              +{gain}
+            </span>
+          )}
+        </header>
+        <p>{text}</p>
+        {snippet && (
+          <pre>
+            <code>{snippet}</code>
+          </pre>
+        )}
+        {references.length > 0 && (
+          <div class="for">
+            {references.slice(0, SHOWN).map((slug) => (
+              <button
+                key={slug}
+                type="button"
+                class="thumb"
+                title={tiles.value.get(slug)?.name ?? slug}
+                onClick={() => inspect(slug)}
+              >
+                <Picture
+                  url={tiles.value.get(slug)?.reference ?? null}
+                  tint={tiles.value.get(slug)?.colour ?? null}
+                  alt={slug}
+                />
+              </button>
+            ))}
+            <span class="soft">{plural(references.length, "reference")}</span>
+          </div>
+        )}
+        <div class="row">
+          {snippet && (
+            <Button icon="copy" onClick={() => void copy(snippet, "the snippet")}>
+              Copy
+            </Button>
+          )}
+          <Button onClick={() => void toCopy()}>Apply to a copy</Button>
+          <Button onClick={() => void toProcedure()}>Apply to the procedure</Button>
+        </div>
+      </div>
+    </article>
+  );
+}

@@ -1,0 +1,73 @@
+/** The page: header, what is wrong, and one view. */
+
+import { useSignalEffect } from "@preact/signals";
+import { CollectionView } from "../collection/view";
+import { FeedbackView } from "../feedback/view";
+import { HistoryView } from "../history/view";
+import { Inspector } from "../inspector/view";
+import { LoopView } from "../loop/view";
+import { fit } from "../state/actions";
+import { useKeys } from "../state/keys";
+import { go, route, VIEWS } from "../state/route";
+import { collection, connected, fitting, jobs, lost, procedure, project, ready } from "../state/studio";
+import { switchTheme } from "../state/theme";
+import { Empty } from "../ui/controls";
+import { Header, ProgressLine } from "./header";
+import { Help, helping } from "./help";
+import { Notices } from "./notices";
+import { Problems } from "./problems";
+
+const SHOWN = { collection: CollectionView, loop: LoopView, history: HistoryView, feedback: FeedbackView } as const;
+
+export function App() {
+  useKeys("Everywhere", [
+    { keys: ["?"], does: "these keys", run: () => (helping.value = true) },
+    {
+      keys: VIEWS.map((_, i) => `${i + 1}`),
+      does: "Collection, Loop, History, Feedback",
+      run: (event) => go(VIEWS[Number(event.key) - 1]!),
+    },
+    {
+      keys: ["f"],
+      does: "fit",
+      run: () => {
+        if (!fitting.value && procedure.value.state !== "broken") fit();
+      },
+    },
+    { keys: ["d"], does: "dark or light", run: switchTheme },
+  ]);
+  useSignalEffect(() => {
+    document.title = title();
+  });
+  if (!ready.value) {
+    return (
+      <Empty title={connected.value ? "Opening the project…" : "No connection to the studio's server"}>
+        {!connected.value && <p>{lost.value}</p>}
+      </Empty>
+    );
+  }
+  const View = SHOWN[route.value.view];
+  const { slug } = route.value;
+  return (
+    <>
+      <Header />
+      <ProgressLine />
+      <Problems />
+      <main class={slug ? "covered" : ""}>
+        <View />
+      </main>
+      {slug && <Inspector slug={slug} />}
+      <Help />
+      <Notices />
+    </>
+  );
+}
+
+/** What the browser's tab says: how the loop stands, even from afar. */
+function title(): string {
+  const { compatible, count, run } = collection.value;
+  const name = project.value.name || "shapewright studio";
+  if (fitting.value) return `${jobs.fit.value.stages.at(-1)?.name ?? "fit"}… ${name}`;
+  if (procedure.value.state === "broken") return `broken: ${name}`;
+  return run === null ? name : `${compatible}/${count} ${name}`;
+}

@@ -1,0 +1,127 @@
+/** The bar at the top: where one is, how the loop stands, and what can be done from anywhere. */
+
+import { cancel, fit } from "../state/actions";
+import { go, route, VIEWS } from "../state/route";
+import { bench, collection, connected, fitting, jobs, lost, procedure, project } from "../state/studio";
+import { switchTheme, theme } from "../state/theme";
+import { Button } from "../ui/controls";
+import { duration } from "../ui/numbers";
+import { ExportMenu } from "./exporting";
+import { helping } from "./help";
+
+const LABELS = { collection: "Collection", loop: "Loop", history: "History", feedback: "Feedback" } as const;
+const ANSWERS: Record<string, string> = {
+  "carried over": "parameters carried over",
+  "most similar samples": "first guesses shown",
+  predicted: "predictions shown",
+};
+
+export function Header() {
+  return (
+    <header class="header">
+      <h1 title={project.value.folder}>
+        <Mark />
+        <span>{project.value.name}</span>
+      </h1>
+      <nav aria-label="Views">
+        {VIEWS.map((view, i) => (
+          <a
+            key={view}
+            href={`#${view}`}
+            aria-current={route.value.view === view ? "page" : undefined}
+            title={`${LABELS[view]} (${i + 1})`}
+            onClick={() => go(view)}
+          >
+            {LABELS[view]}
+          </a>
+        ))}
+      </nav>
+      <Status />
+      <FitButton />
+      <ExportMenu />
+      <Button
+        kind="quiet"
+        icon={theme.value === "dark" ? "sun" : "moon"}
+        title={`Switch to ${theme.value === "dark" ? "light" : "dark"} colours`}
+        onClick={switchTheme}
+      />
+      <Button kind="quiet" icon="help" title="Keys (?)" onClick={() => (helping.value = true)} />
+    </header>
+  );
+}
+
+function Mark() {
+  return (
+    <svg class="mark" viewBox="0 0 32 32" aria-label="shapewright">
+      <path d="M6 11.5 16 6.500l10 5-10 5z" />
+      <path d="M9 14v9.500M16 17.500V27M23 14v9.5" />
+    </svg>
+  );
+}
+
+/** One line on what is going on. */
+export function Status() {
+  const job = jobs.fit.value;
+  const stage = job.stages.at(-1);
+  if (!connected.value) {
+    return (
+      <p class="status bad" title={lost.value}>
+        {lost.value}
+      </p>
+    );
+  }
+  if (fitting.value) {
+    const part = stage && stage.total > 1 ? ` ${stage.done}/${stage.total}` : "";
+    return (
+      <p class="status busy" role="status">
+        <b>{job.state === "cancelling" ? "cancelling" : (stage?.name ?? "starting")}</b>
+        {part}
+        {job.answer && <span class="soft"> · {ANSWERS[job.answer] ?? job.answer}</span>}
+      </p>
+    );
+  }
+  if (bench.value !== "ready") {
+    return <p class="status busy">{bench.value === "starting" ? "Starting…" : "The bench restarts…"}</p>;
+  }
+  if (procedure.value.state === "broken") return <p class="status bad">procedure broken</p>;
+  if (procedure.value.stale) return <p class="status warn">not fitted since the last edit</p>;
+  if (job.state === "done") return <p class="status soft">fitted in {duration(job.seconds)}</p>;
+  if (job.state === "cancelled") return <p class="status soft">fit cancelled</p>;
+  if (job.state === "failed") return <p class="status bad">fit failed</p>;
+  return <p class="status" />;
+}
+
+function FitButton() {
+  if (fitting.value) {
+    const cancelling = jobs.fit.value.state === "cancelling";
+    return (
+      <Button icon="stop" class="fit" disabled={cancelling} title="Stop this fit" onClick={() => cancel("fit")}>
+        Cancel
+      </Button>
+    );
+  }
+  return (
+    <Button
+      icon="play"
+      kind="primary"
+      class="fit"
+      disabled={procedure.value.state === "broken" || collection.value.count === 0}
+      title={procedure.value.state === "broken" ? "The procedure is broken" : "Find parameters for every reference (f)"}
+      onClick={() => fit()}
+    >
+      Fit
+    </Button>
+  );
+}
+
+/** How far the fit is, as a hair line under the bar. */
+export function ProgressLine() {
+  const stage = jobs.fit.value.stages.at(-1);
+  if (!fitting.value) return <div class="progress-line" />;
+  const share = stage && stage.total > 0 ? stage.done / stage.total : 0;
+  return (
+    <div class="progress-line">
+      <i style={{ width: `${(share * 100).toFixed(1)}%` }} />
+    </div>
+  );
+}

@@ -1,0 +1,72 @@
+/** References that changed sides, or moved, between two iterations. */
+
+import { inspect } from "../state/route";
+import { tiles } from "../state/studio";
+import { fixed } from "../ui/numbers";
+import { Dot, Picture } from "../ui/picture";
+import type { Comparison, Move } from "../wire/protocol";
+
+const KINDS = [
+  { kind: "gained", title: "Newly compatible" },
+  { kind: "lost", title: "No longer compatible" },
+  { kind: "closer", title: "Nearer" },
+  { kind: "further", title: "Farther" },
+] as const;
+
+export function Moves({ comparison }: { comparison: Comparison }) {
+  const some = KINDS.filter(({ kind }) => comparison[kind].length > 0);
+  const { same, added, removed } = comparison;
+  return (
+    <div class="moves">
+      {some.length === 0 && <p class="soft">No reference has changed between the two.</p>}
+      {some.map(({ kind, title }, i) => (
+        <section key={kind} class={kind}>
+          <h2>
+            {title} <small>{comparison[kind].length}</small>
+            {i === 0 && (
+              <span class="soft">
+                reference, {comparison.before.run}, {comparison.after.run}
+              </span>
+            )}
+          </h2>
+          <div class="tiles">
+            {comparison[kind].map((move) => (
+              <MoveCard key={move.slug} move={move} />
+            ))}
+          </div>
+        </section>
+      ))}
+      <p class="soft">
+        {same} stayed where they were.
+        {added.length > 0 && ` New references: ${added.join(", ")}.`}
+        {removed.length > 0 && ` Gone: ${removed.join(", ")}.`}
+      </p>
+    </div>
+  );
+}
+
+function MoveCard({ move }: { move: Move }) {
+  const here = tiles.value.has(move.slug);
+  return (
+    <article class="tile move">
+      <button type="button" class="pair" disabled={!here} aria-label={move.name} onClick={() => inspect(move.slug)}>
+        <Picture url={move.reference} tint={null} alt="reference" />
+        <Picture url={move.replica_before} tint={move.colour_before} alt="before" />
+        <Picture url={move.replica_after} tint={move.colour_after} alt="after" />
+      </button>
+      <footer>
+        <span class="name" title={move.name}>
+          {move.name}
+        </span>
+        <span class="distance">
+          <Dot colour={move.colour_before} />
+          {fixed(move.before)}
+        </span>
+        <span class="distance">
+          → <Dot colour={move.colour_after} />
+          {fixed(move.after)}
+        </span>
+      </footer>
+    </article>
+  );
+}

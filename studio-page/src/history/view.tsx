@@ -1,0 +1,117 @@
+/** History: how many references each iteration replicated, and any two of them side by side. */
+
+import { useComputed, useSignal, useSignalEffect } from "@preact/signals";
+import { complain, tell } from "../state/notices";
+import { procedure, runs } from "../state/studio";
+import { Button, Empty, Select } from "../ui/controls";
+import { duration, moment, plural } from "../ui/numbers";
+import type { Comparison, Run } from "../wire/protocol";
+import { requests } from "../wire/requests";
+import { Chart } from "./chart";
+import { Diff } from "./diff";
+import { Moves } from "./moves";
+
+export function HistoryView() {
+  const picked = useSignal<{ before: string | null; after: string | null }>({ before: null, after: null });
+  const pair = useComputed(() => chosen(runs.value, picked.value));
+  const comparison = useSignal<Comparison | null>(null);
+  useSignalEffect(() => {
+    const now = pair.value;
+    comparison.value = null;
+    if (!now || now.before === now.after) return;
+    requests
+      .compare(now.before, now.after)
+      .then((found) => {
+        if (pair.value === now) comparison.value = found;
+      })
+      .catch(complain);
+  });
+  if (runs.value.length === 0) {
+    return (
+      <Empty title="No iteration yet">
+        <p>
+          Every fit is kept here, with its procedure: how many references it replicates, and what it gained and lost.
+        </p>
+      </Empty>
+    );
+  }
+  const { before, after } = pair.value!;
+  const pick = (run: string, asBefore: boolean) => {
+    picked.value = asBefore ? { before: run, after } : { before: picked.value.before, after: run };
+  };
+  const options = runs.value.map(({ run, compatible }) => ({ value: run, label: `${run} (${compatible})` }));
+  return (
+    <div class="history">
+      <section class="overview">
+        <Chart runs={runs.value} before={before} after={after} onPick={pick} />
+        <div class="choice">
+          <Select label="Compare" options={options} value={before} onChange={(run) => pick(run, true)} />
+          <Select label="with" options={options} value={after} onChange={(run) => pick(run, false)} />
+          <RunFacts run={runs.value.find(({ run }) => run === after)!} />
+        </div>
+      </section>
+      {before === after ? (
+        <p class="soft">
+          {runs.value.length === 1
+            ? "With the next iteration, the two can be compared here."
+            : "Choose two iterations to compare."}
+        </p>
+      ) : comparison.value ? (
+        <div class="compared">
+          <Moves comparison={comparison.value} />
+          <Diff lines={comparison.value.diff} />
+        </div>
+      ) : (
+        <p class="soft">Comparing…</p>
+      )}
+    </div>
+  );
+}
+
+/** The two that were picked; by default the newest and the one before it. */
+function chosen(all: Run[], picked: { before: string | null; after: string | null }) {
+  const names = all.map(({ run }) => run);
+  const after = picked.after && names.includes(picked.after) ? picked.after : names.at(-1);
+  if (after === undefined) return null;
+  const at = names.indexOf(after);
+  const before = picked.before && names.includes(picked.before) ? picked.before : names[Math.max(0, at - 1)]!;
+  return { before, after };
+}
+
+function RunFacts({ run }: { run: Run }) {
+  const restore = async () => {
+    try {
+      const { digest, undo } = await requests.restore(run.run, procedure.value.digest);
+      tell(`The procedure is that of run ${run.run} again.`, {
+        label: "Undo",
+        run: () => void requests.saveSource(undo, digest).catch(complain),
+      });
+    } catch (error) {
+      complain(error);
+    }
+  };
+  const here = run.digest === procedure.value.digest;
+  return (
+    <div class="run-facts">
+      <p>
+        <b>Run {run.run}</b> · {moment(run.created)} · {duration(run.seconds)} · {plural(run.groups, "group")}
+      </p>
+      <div class="row">
+        <Button
+          icon="reset"
+          disabled={here}
+          title={here ? "The procedure is this one" : "Put this run's procedure back as procedure.py"}
+          onClick={() => void restore()}
+        >
+          Go back to its procedure
+        </Button>
+        <a class="link" href={`/api/runs/${run.run}/report.html`} target="_blank" rel="noopener">
+          Report
+        </a>
+        <a class="link" href={`/api/runs/${run.run}/parameters.csv`} download>
+          Parameters
+        </a>
+      </div>
+    </div>
+  );
+}

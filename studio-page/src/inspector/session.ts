@@ -1,0 +1,151 @@
+/** The pair that is open: what was found for it, what the author has tried since, and what the server said of that. */
+
+import { computed, effect, signal, untracked } from "@preact/signals";
+import { complain } from "../state/notices";
+import { connected, dimension, procedure, tileOf } from "../state/studio";
+import { evaluate, onEvaluated } from "../wire/live";
+import type {
+  DistanceMessage,
+  DrawingMessage,
+  Evaluated,
+  MeshMessage,
+  Outcome,
+  Problem,
+  Reference,
+  ResidualsMessage,
+  Slug,
+  Value,
+  Values,
+} from "../wire/protocol";
+import { RequestError, requests } from "../wire/requests";
+
+export type Colouring = "plain" | "distance" | "parts";
+export type Shown = MeshMessage | DrawingMessage;
+
+export const slug = signal<Slug | null>(null);
+export const reference = signal<Reference | null>(null);
+export const original = signal<Shown | null>(null);
+export const replica = signal<Shown | null>(null);
+export const residuals = signal<{ reference: ResidualsMessage | null; replica: ResidualsMessage | null }>({
+  reference: null,
+  replica: null,
+});
+/** What the author has set by hand; null while everything is as found. */
+export const edited = signal<Values | null>(null);
+export const outcome = signal<Outcome | null>(null);
+export const figures = signal<DistanceMessage | null>(null);
+export const failure = signal<Problem | null>(null);
+/** The request whose answer is still to come; 0 when there is none. */
+export const waiting = signal(0);
+export const colouring = signal<Colouring>("plain");
+
+export const values = computed((): Values => {
+  const defaults = Object.fromEntries(procedure.value.parameters.map((one) => [one.name, one.default]));
+  return {
+    ...defaults,
+    ...(reference.value?.parameters ?? {}),
+    ...(outcome.value?.parameters ?? {}),
+    ...(edited.value ?? {}),
+  };
+});
+export const active = computed(() => new Set(outcome.value?.active ?? reference.value?.active ?? []));
+export const atLimit = computed(() => new Set(outcome.value?.at_limit ?? reference.value?.at_limit ?? []));
+
+/** Show one pair until the returned function is called. */
+export function open(next: Slug): () => void {
+  slug.value = next;
+  for (const empty of [reference, original, replica, outcome, figures, failure, edited]) empty.value = null;
+  residuals.value = { reference: null, replica: null };
+  const deaf = onEvaluated(hear);
+  const unwatch = watch(next);
+  return () => {
+    deaf();
+    unwatch();
+    slug.value = null;
+  };
+}
+
+/** Ask again whenever what was found for the pair, or the procedure, or the connection has changed. */
+function watch(next: Slug): () => void {
+  let shape: string | null | undefined;
+  const known = computed(() => {
+    const tile = tileOf(next);
+    const { digest, state } = procedure.value;
+    return [
+      tile?.replica,
+      tile?.distance,
+      tile?.stage,
+      tile?.stale,
+      digest,
+      state,
+      connected.value,
+      colouring.value,
+    ].join();
+  });
+  return effect(() => {
+    void known.value;
+    untracked(() => {
+      if (!connected.value) return;
+      const tile = tileOf(next);
+      requests.reference(next).then((found) => slug.value === next && (reference.value = found), note(next));
+      if (tile && tile.reference !== shape) {
+        shape = tile.reference;
+        const asked: Promise<Shown> = dimension.value === 3 ? requests.mesh(next) : requests.drawing(next);
+        asked.then((found) => slug.value === next && (original.value = found), note(next));
+      }
+      ask();
+    });
+  });
+}
+
+/** Tell an error of a request, unless the author has gone on. */
+function note(next: Slug): (error: unknown) => void {
+  return (error) => {
+    const gone = error instanceof RequestError && error.status === 404;
+    if (slug.value === next && !gone) complain(error);
+  };
+}
+
+function ask(): void {
+  if (slug.value)
+    waiting.value = evaluate(slug.value, edited.value, colouring.value === "distance" && dimension.value === 3);
+}
+
+export function set(name: string, value: Value): void {
+  edited.value = { ...values.value, [name]: value };
+  ask();
+}
+
+/** Back to what was found, or to other parameters. */
+export function reset(to: Values | null = null): void {
+  edited.value = to && { ...values.value, ...to };
+  ask();
+}
+
+export function resetOne(name: string): void {
+  const found = reference.value?.parameters?.[name];
+  if (found !== undefined) set(name, found);
+}
+
+function hear(message: Evaluated): void {
+  if (message.slug !== slug.value) return;
+  switch (message.type) {
+    case "mesh":
+    case "drawing":
+      replica.value = message;
+      outcome.value = message.parameters ? (message as Outcome) : outcome.value;
+      residuals.value = { reference: null, replica: null };
+      failure.value = null;
+      return;
+    case "distance":
+      figures.value = message;
+      if (message.id >= waiting.value) waiting.value = 0;
+      return;
+    case "residuals":
+      residuals.value = { ...residuals.value, [message.shape]: message };
+      return;
+    case "failed":
+      failure.value = message.problem;
+      if (message.id >= waiting.value) waiting.value = 0;
+  }
+}

@@ -1,0 +1,84 @@
+/** The procedure's text, to be edited here or in the author's own editor. */
+
+import { effect, useSignal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { complain } from "../state/notices";
+import { problems, procedure, project } from "../state/studio";
+import { Button } from "../ui/controls";
+import type { Editor } from "./codemirror";
+import { base, dirty, goal, save, startEditing, take, text, theirs } from "./editing";
+
+const MAC = navigator.platform.startsWith("Mac");
+
+export function EditorPane() {
+  const place = useRef<HTMLDivElement>(null);
+  const loaded = useSignal(false);
+  useEffect(() => {
+    startEditing();
+    let gone = false;
+    let ends: (() => void)[] = [];
+    import("./codemirror")
+      .then(({ createEditor }) => {
+        if (gone || !place.current) return;
+        const editor = createEditor(place.current, text.value, {
+          onText: (next) => (text.value = next),
+          onSave: () => void save(),
+        });
+        loaded.value = true;
+        ends = [...follow(editor), () => editor.destroy()];
+      })
+      .catch(complain);
+    return () => {
+      gone = true;
+      ends.forEach((end) => end());
+    };
+  }, []);
+  const state = dirty.value ? "not saved" : procedure.value.state === "broken" ? "broken" : "";
+  return (
+    <section class="editor">
+      <header>
+        <h2 class="mono">{base.value?.path ?? project.value.procedure}</h2>
+        <span class={state === "broken" ? "bad" : "warn"}>{state}</span>
+        <Button disabled={!dirty.value} onClick={() => base.value && take(base.value)}>
+          Discard
+        </Button>
+        <Button
+          kind={dirty.value ? "primary" : "plain"}
+          disabled={!dirty.value}
+          title={`Save, and run (${MAC ? "⌘" : "Ctrl "}S)`}
+          onClick={() => void save()}
+        >
+          Save
+        </Button>
+      </header>
+      {theirs.value && (
+        <div class="conflict" role="alert">
+          <p>The file has changed on disk since you began to edit it here.</p>
+          <Button onClick={() => theirs.value && take(theirs.value)}>Take the file's text</Button>
+          <Button onClick={() => void save(true)}>Overwrite with mine</Button>
+        </div>
+      )}
+      <div class="code" ref={place}>
+        {!loaded.value && <p class="soft">Loading the editor…</p>}
+      </div>
+      <footer class="soft">What is saved here is run on this machine, with your rights.</footer>
+    </section>
+  );
+}
+
+/** Keep the editor as the signals have it. */
+function follow(editor: Editor): (() => void)[] {
+  return [
+    effect(() => editor.write(text.value)),
+    effect(() => {
+      // A problem's line is of the text on disk.
+      const here = problems.value.filter(({ file, line }) => line !== null && file === base.value?.path);
+      editor.mark(here);
+    }),
+    effect(() => {
+      if (goal.value === null || !base.value) return;
+      editor.goTo(goal.value);
+      goal.value = null;
+    }),
+  ];
+}

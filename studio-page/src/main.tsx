@@ -1,0 +1,14 @@
+import { render } from "preact";
+import { App } from "./frame/app";
+import { start } from "./state/studio";
+import "./styles/tokens.css";
+import "./styles/base.css";
+import "./styles/frame.css";
+import "./styles/collection.css";
+import "./styles/inspector.css";
+import "./styles/loop.css";
+import "./styles/history.css";
+import "./styles/feedback.css";
+
+start();
+render(<App />, document.getElementById("page")!);

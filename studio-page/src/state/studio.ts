@@ -1,0 +1,151 @@
+/** What the page knows: one signal for each part of the server's state, and what is derived from several. */
+
+import { computed, signal } from "@preact/signals";
+import type {
+  Change,
+  Collection,
+  Job,
+  JobKind,
+  Mark,
+  Problem,
+  Procedure,
+  Run,
+  Settings,
+  Slug,
+  State,
+  Tile,
+} from "../wire/protocol";
+import { connect } from "../wire/live";
+import { complain } from "./notices";
+
+const idle = (kind: JobKind): Job => ({
+  kind,
+  state: "idle",
+  stages: [],
+  curve: [],
+  answer: null,
+  seconds: 0,
+  problem: null,
+  result: null,
+});
+
+export const ready = signal(false);
+export const connected = signal(true);
+/** Why there is no connection, and what to do. */
+export const lost = signal("");
+export const version = signal("");
+export const project = signal<State["project"]>({ name: "", folder: "", procedure: "procedure.py", references: "" });
+export const dimension = signal<2 | 3>(3);
+export const bench = signal<State["bench"]>("starting");
+export const procedure = signal<Procedure>({
+  state: "loading",
+  stale: false,
+  name: "",
+  digest: "",
+  fitted: null,
+  parameters: [],
+});
+export const collection = signal<Collection>({
+  run: null,
+  threshold: 0.18,
+  measure: "",
+  count: 0,
+  compatible: 0,
+  tiles: [],
+  groups: [],
+  skipped: [],
+});
+export const jobs = {
+  fit: signal(idle("fit")),
+  explain: signal(idle("explain")),
+  export: signal(idle("export")),
+};
+export const runs = signal<Run[]>([]);
+export const settings = signal<Settings | null>(null);
+export const marks = signal<Mark[]>([]);
+export const explained = signal(false);
+export const problems = signal<Problem[]>([]);
+
+export const tiles = computed(() => new Map(collection.value.tiles.map((tile) => [tile.slug, tile])));
+export const fitting = computed(() => ["running", "cancelling"].includes(jobs.fit.value.state));
+
+export const tileOf = (slug: Slug): Tile | undefined => tiles.value.get(slug);
+
+export function start(): void {
+  connect({
+    changed: apply,
+    connected: (why) => {
+      connected.value = why === null;
+      lost.value = why ?? "";
+    },
+  });
+}
+
+function apply(change: Change): void {
+  switch (change.type) {
+    case "state":
+      return replace(change);
+    case "procedure":
+      procedure.value = change.procedure;
+      return;
+    case "tiles":
+      return replaceTiles(change.tiles);
+    case "collection":
+      collection.value = change.collection;
+      return;
+    case "job":
+      jobs[change.job.kind].value = change.job;
+      return;
+    case "runs":
+      runs.value = change.runs;
+      return;
+    case "marks":
+      marks.value = change.marks;
+      return;
+    case "settings":
+      settings.value = change.settings;
+      return;
+    case "problems":
+      problems.value = change.problems;
+      return;
+    case "explanation":
+      explained.value = change.explanation;
+      return;
+    case "wrong":
+      complain(change.error);
+  }
+}
+
+function replace(state: State): void {
+  version.value = state.version;
+  project.value = state.project;
+  dimension.value = state.dimension;
+  bench.value = state.bench;
+  procedure.value = state.procedure;
+  collection.value = state.collection;
+  for (const kind of ["fit", "explain", "export"] as const) jobs[kind].value = state.jobs[kind];
+  runs.value = state.runs;
+  settings.value = state.settings;
+  marks.value = state.marks;
+  explained.value = state.explanation;
+  problems.value = state.problems;
+  ready.value = true;
+}
+
+function replaceTiles(changed: Tile[]): void {
+  const bySlug = new Map(changed.map((tile) => [tile.slug, tile]));
+  const kept = collection.value.tiles.map((tile) => {
+    const next = bySlug.get(tile.slug);
+    bySlug.delete(tile.slug);
+    return next ? provisional(next, tile) : tile;
+  });
+  const all = [...kept, ...bySlug.values()];
+  const compatible = all.filter((tile) => tile.compatible).length;
+  collection.value = { ...collection.value, tiles: all, count: all.length, compatible };
+}
+
+/** A replica that is not measured yet stays on its side of the threshold, so that tiles do not jump there and back. */
+function provisional(next: Tile, before: Tile): Tile {
+  const waits = next.distance === null && next.replica !== null && next.problem === null;
+  return waits ? { ...next, compatible: before.compatible } : next;
+}

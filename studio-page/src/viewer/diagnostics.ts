@@ -1,0 +1,47 @@
+/** What the journeys of the tests and the benchmark ask of the stage: nothing else reads it. */
+
+import { Vector3 } from "three";
+import type { Side, Stage } from "./stage";
+
+declare global {
+  interface Window {
+    shapewright: {
+      /** Contexts that are alive, and the objects of the one that is open. */
+      gpu: () => Record<"contexts" | "geometries" | "textures" | "programs", number>;
+      /** How many replicas were put on the stage so far. */
+      shown: () => number;
+      /** Where on the page a point of the normalised frame is seen; null while nothing is open. */
+      seen: (side: Side, point: [number, number, number]) => { x: number; y: number } | null;
+    };
+  }
+}
+
+const alive = new Set<Stage>();
+let replicas = 0;
+
+export function born(stage: Stage): void {
+  alive.add(stage);
+}
+
+export function gone(stage: Stage): void {
+  alive.delete(stage);
+}
+
+export function replicaShown(): void {
+  replicas += 1;
+}
+
+window.shapewright = {
+  shown: () => replicas,
+  gpu: () => {
+    const [open] = alive;
+    return { contexts: alive.size, geometries: 0, textures: 0, programs: 0, ...open?.objects };
+  },
+  seen: (side, point) => {
+    const [open] = alive;
+    const at = open?.project(new Vector3(...point), side);
+    if (!open || !at) return null;
+    const box = open.canvas.getBoundingClientRect();
+    return { x: box.left + at.x, y: box.top + at.y };
+  },
+};

@@ -1,0 +1,71 @@
+/** The WebSocket: changes of the state come in, evaluations go out and come back. */
+
+import { decode } from "./binary";
+import type { Change, Evaluated, Slug, Values } from "./protocol";
+
+const FIRST_WAIT = 400;
+const LONGEST_WAIT = 5000;
+const EVALUATED = new Set(["distance", "drawing", "failed"]);
+
+export interface Listener {
+  changed(change: Change): void;
+  /** null, or why there is no connection. */
+  connected(why: string | null): void;
+}
+
+let socket: WebSocket | null = null;
+let lastId = 0;
+let evaluationListener: (message: Evaluated) => void = () => undefined;
+
+/** Connect, and again whenever the connection is lost. */
+export function connect(listener: Listener, wait = FIRST_WAIT): void {
+  const url = new URL("/api/live", location.href);
+  url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
+  socket = new WebSocket(url);
+  socket.binaryType = "arraybuffer";
+  let next = Math.min(2 * wait, LONGEST_WAIT);
+  socket.addEventListener("open", () => {
+    next = FIRST_WAIT;
+    listener.connected(null);
+  });
+  socket.addEventListener("message", ({ data }: MessageEvent<string | ArrayBuffer>) => {
+    if (data instanceof ArrayBuffer) return evaluationListener(decode(data));
+    const message = JSON.parse(data) as Change | Evaluated;
+    if (EVALUATED.has(message.type)) evaluationListener(message as Evaluated);
+    else listener.changed(message as Change);
+  });
+  socket.addEventListener("close", () => {
+    void reason().then((why) => socket?.readyState !== WebSocket.OPEN && listener.connected(why));
+    setTimeout(() => connect(listener, next), wait);
+  });
+}
+
+/** A studio that was started anew does not know this page any more. */
+async function reason(): Promise<string> {
+  const answer = await fetch("/api/state").catch(() => null);
+  return answer?.status === 401
+    ? "The studio was started anew: open the address that it printed."
+    : "The studio does not answer: is it still running? The page connects again by itself.";
+}
+
+/** Ask for a replica; the answers come to the one listener. Returns the number that they carry. */
+export function evaluate(slug: Slug | null, parameters: Values | null, residuals: boolean): number {
+  lastId += 1;
+  if (socket?.readyState === WebSocket.OPEN) {
+    socket.send(JSON.stringify({ type: "evaluate", id: lastId, slug, parameters, residuals }));
+  }
+  return lastId;
+}
+
+/** Say which pairs the author looks at. */
+export function look(slugs: Slug[]): void {
+  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ type: "visible", slugs }));
+}
+
+/** Who hears the answers of evaluations; returns how to stop listening. */
+export function onEvaluated(listener: (message: Evaluated) => void): () => void {
+  evaluationListener = listener;
+  return () => {
+    if (evaluationListener === listener) evaluationListener = () => undefined;
+  };
+}

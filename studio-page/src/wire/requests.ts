@@ -1,0 +1,95 @@
+/** Requests to the server; all of them raise a RequestError that can be shown to the author. */
+
+import { decode } from "./binary";
+import type {
+  Comparison,
+  DrawingMessage,
+  Explanation,
+  JobKind,
+  Mark,
+  MeshMessage,
+  Reference,
+  RunDetail,
+  Settings,
+  Slug,
+} from "./protocol";
+
+export class RequestError extends Error {
+  constructor(
+    message: string,
+    readonly status: number,
+    readonly body: Record<string, unknown>,
+  ) {
+    super(message);
+  }
+}
+
+async function answer(path: string, init?: RequestInit): Promise<Response> {
+  let response: Response;
+  try {
+    response = await fetch(path, init);
+  } catch {
+    throw new RequestError("The server does not answer. Is `shapewright studio` still running?", 0, {});
+  }
+  if (response.ok) return response;
+  const body = (await response.json().catch(() => ({}))) as Record<string, unknown>;
+  throw new RequestError(
+    typeof body.error === "string" ? body.error : `${response.status} ${path}`,
+    response.status,
+    body,
+  );
+}
+
+async function get<T>(path: string): Promise<T> {
+  return (await (await answer(path)).json()) as T;
+}
+
+async function send<T>(method: "POST" | "PUT" | "PATCH", path: string, body: unknown): Promise<T> {
+  const headers = { "Content-Type": "application/json" };
+  return (await (await answer(path, { method, headers, body: JSON.stringify(body) })).json()) as T;
+}
+
+export interface Source {
+  path: string;
+  text: string;
+  digest: string;
+}
+
+export interface ExportOrder {
+  what: ("replicas" | "samples" | "report" | "parameters")[];
+  format: string;
+  count: number;
+  seed: number;
+}
+
+const id = encodeURIComponent;
+
+export const requests = {
+  reference: (slug: Slug) => get<Reference>(`/api/references/${id(slug)}`),
+  mesh: async (slug: Slug) =>
+    decode(await (await answer(`/api/references/${id(slug)}/shape`)).arrayBuffer()) as MeshMessage,
+  drawing: (slug: Slug) => get<DrawingMessage>(`/api/references/${id(slug)}/shape`),
+  source: () => get<Source>("/api/source"),
+  saveSource: (text: string, digest: string | null) => send<{ digest: string }>("PUT", "/api/source", { text, digest }),
+  fit: (fresh: boolean) => send("POST", "/api/fit", { fresh }),
+  explain: () => send("POST", "/api/explain", {}),
+  export: (order: ExportOrder) => send("POST", "/api/export", order),
+  cancel: (kind: JobKind) => send("POST", "/api/cancel", { kind }),
+  settings: (change: Partial<Settings>) => send<Settings>("PATCH", "/api/settings", change),
+  marks: (marks: Mark[]) => send("PUT", "/api/marks", marks),
+  run: (run: string) => get<RunDetail>(`/api/runs/${id(run)}`),
+  compare: (before: string, after: string) => get<Comparison>(`/api/compare?before=${id(before)}&after=${id(after)}`),
+  restore: (run: string, digest: string | null) =>
+    send<{ digest: string; undo: string }>("POST", `/api/runs/${id(run)}/restore`, { digest }),
+  explanation: () => get<Explanation>("/api/explanation"),
+  applyToCopy: (index: number) =>
+    send<{ path: string; text: string }>("POST", `/api/suggestions/${index}/apply`, { to: "copy" }),
+  applyToProcedure: (index: number, digest: string | null) =>
+    send<{ digest: string; undo: string }>("POST", `/api/suggestions/${index}/apply`, { to: "procedure", digest }),
+};
+
+/** A picture drawn by the server, for browsers without WebGL. */
+export function renderUrl(slug: Slug, shape: "reference" | "replica", azimuth: number, elevation: number, size = 512) {
+  const query = new URLSearchParams({ shape, azimuth: `${azimuth}`, elevation: `${elevation}`, size: `${size}` });
+  return `/api/references/${id(slug)}/render?${query.toString()}`;
+}
