@@ -5,18 +5,18 @@ from typing import Annotated, Literal
 from shapewright import Range, When, procedure
 from shapewright.modelling.drawing import box, line, polygon, spline, union
 
-STANDING = ("legs", "trestles")
+STANDING = ("straight", "leaning", "trestles")
 
 
 @procedure
 def table(
     height: Annotated[float, Range(0.2, 2.2)] = 0.6,  # of the width, as all lengths
     top: Annotated[float, Range(0.008, 0.3)] = 0.05,
-    base: Literal["legs", "trestles", "crossed", "column"] = "legs",
+    base: Literal["straight", "leaning", "trestles", "crossed", "column"] = "straight",
     leg: Annotated[float, Range(0.01, 0.3)] = 0.06,  # its width under the top
-    foot: Annotated[float, Range(0.2, 2.0)] = 1.0,  # of that, its width on the floor
+    foot: Annotated[float, Range(0.2, 2.0, when=lambda p: p.base not in ("straight", "crossed"))] = 1.0,
     inset: Annotated[float, Range(0.0, 0.35, when=lambda p: p.base != "column")] = 0.0,
-    splay: Annotated[float, Range(-0.2, 0.25, when=lambda p: p.base == "legs")] = 0.0,
+    splay: Annotated[float, Range(-0.2, 0.25, when=lambda p: p.base == "leaning")] = 0.0,
     spread: Annotated[float, Range(0.05, 0.4, when=lambda p: p.base == "trestles")] = 0.2,
     waist: Annotated[float, Range(0.3, 3.0, when=lambda p: p.base == "column")] = 1.0,
     plate: Annotated[float, Range(0.1, 1.0, when=lambda p: p.base == "column")] = 0.5,
@@ -50,10 +50,10 @@ def table(
             if apron > 0:
                 parts.append(box((2 * x, apron * under), at=(0, under - apron * under / 2)))
             for place in (level, second)[:bars]:
-                reach = x + splay * (1 - place) if base == "legs" else x - spread / 2
+                reach = x + splay * (1 - place) if base != "trestles" else x - spread / 2
                 parts.append(box((2 * max(reach, leg / 2), bar), at=(0, max(place * under, bar / 2))))
     shape = union(*parts)
-    return shape if base in ("legs", "column") else shape & box((4, height), at=(0, height / 2))
+    return shape if base not in ("trestles", "crossed") else shape & box((4, height), at=(0, height / 2))
 
 
 def both(part):

@@ -5,19 +5,20 @@ from typing import Annotated, Literal
 from shapewright import Range, When, procedure
 from shapewright.modelling.drawing import box, line, polygon, spline, union
 
-STANDING = ("legs", "trestles")
+LEANING = ("leaning", "bowed")
+STANDING = ("straight", *LEANING, "trestles")
 
 
 @procedure
 def table(
     height: Annotated[float, Range(0.2, 2.2)] = 0.6,  # of the width, as all lengths
     top: Annotated[float, Range(0.008, 0.3)] = 0.05,
-    base: Literal["legs", "trestles", "crossed", "column"] = "legs",
+    base: Literal["straight", "leaning", "bowed", "trestles", "crossed", "column"] = "straight",
     leg: Annotated[float, Range(0.01, 0.3)] = 0.06,  # its width under the top
-    foot: Annotated[float, Range(0.2, 2.0)] = 1.0,  # of that, its width on the floor
+    foot: Annotated[float, Range(0.2, 2.0, when=lambda p: p.base not in ("straight", "crossed"))] = 1.0,
     inset: Annotated[float, Range(0.0, 0.35, when=lambda p: p.base != "column")] = 0.0,
-    splay: Annotated[float, Range(-0.2, 0.25, when=lambda p: p.base == "legs")] = 0.0,
-    bow: Annotated[float, Range(-0.3, 0.3, when=lambda p: p.base == "legs")] = 0.0,
+    splay: Annotated[float, Range(-0.2, 0.25, when=lambda p: p.base in LEANING)] = 0.0,
+    bow: Annotated[float, Range(-0.3, 0.3, when=lambda p: p.base == "bowed")] = 0.0,
     spread: Annotated[float, Range(0.05, 0.4, when=lambda p: p.base == "trestles")] = 0.2,
     waist: Annotated[float, Range(0.3, 3.0, when=lambda p: p.base == "column")] = 1.0,
     plate: Annotated[float, Range(0.1, 1.0, when=lambda p: p.base == "column")] = 0.5,
@@ -29,8 +30,8 @@ def table(
     level: Annotated[float, Range(0.0, 0.95, when=lambda p: p.base in STANDING and p.bars > 0)] = 0.2,
     bar: Annotated[float, Range(0.01, 0.2, when=lambda p: p.base in STANDING and p.bars > 0)] = 0.04,
     second: Annotated[float, Range(0.0, 0.9, when=lambda p: p.base in STANDING and p.bars > 1)] = 0.5,
-    brace: Annotated[Literal["none", "down", "up"], When(lambda p: p.base == "legs")] = "none",
-    brace_level: Annotated[float, Range(0.1, 0.9, when=lambda p: p.base == "legs" and p.brace != "none")] = 0.5,
+    brace: Annotated[Literal["none", "down", "up"], When(lambda p: p.base == "straight")] = "none",
+    brace_level: Annotated[float, Range(0.1, 0.9, when=lambda p: p.base == "straight" and p.brace != "none")] = 0.5,
     body: bool = False,
     body_width: Annotated[float, Range(0.3, 1.0, when=lambda p: p.body)] = 0.8,
     body_top: Annotated[float, Range(0.3, 1.0, when=lambda p: p.body)] = 0.9,
@@ -57,16 +58,16 @@ def table(
             if apron > 0:
                 parts.append(box((2 * x, apron * under), at=(0, under - apron * under / 2)))
             for place in (level, second)[:bars]:
-                reach = x + splay * (1 - place) if base == "legs" else x - spread / 2
+                reach = x + splay * (1 - place) if base != "trestles" else x - spread / 2
                 parts.append(box((2 * max(reach, leg / 2), bar), at=(0, max(place * under, bar / 2))))
-            if base == "legs" and brace != "none":
+            if base == "straight" and brace != "none":
                 ends = (brace_level * under, under) if brace == "up" else (under, brace_level * under)
                 parts += both(line((x, ends[0]), (0, ends[1]), width=leg))
     if body:
         low, high = sorted((body_bottom * under, max(body_top, body_bottom + 0.02) * under))
         parts.append(box((body_width, high - low), at=(0, (low + high) / 2)))
     shape = union(*parts)
-    return shape if base in ("legs", "column") else shape & box((4, height), at=(0, height / 2))
+    return shape if base not in ("trestles", "crossed") else shape & box((4, height), at=(0, height / 2))
 
 
 def both(part):

@@ -15,7 +15,7 @@ from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset,
 from shapewright.prediction.devices import pick
 from shapewright.prediction.evaluation import measure
 from shapewright.prediction.predictor import Predictor
-from shapewright.prediction.refinement import QUICK, THOROUGH, Budget
+from shapewright.prediction.refinement import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, Budget
 from shapewright.prediction.sensitivity import without_effect
 from shapewright.prediction.training import Epoch, Schedule, train_network
 from shapewright.prediction.vgg import VGG19Network, find_weights
@@ -42,9 +42,10 @@ class Lesson:
 
     def budget(self, settings: Settings) -> Budget:
         """How long to refine: what the settings say, or less where a shape takes long to build."""
-        budget, seconds = QUICK, settings.refine_seconds
+        drawn = self.training.kind is Drawing
+        budget, seconds = DRAWN if drawn else QUICK, settings.refine_seconds
         if settings.refine == "thorough":
-            budget, seconds = THOROUGH, 10.0 * settings.refine_seconds
+            budget, seconds = DRAWN_THOROUGH if drawn else THOROUGH, 10.0 * settings.refine_seconds
         scalars = sum(isinstance(parameter, Scalar) for parameter in self.predictor.space)
         return budget.within(seconds / max(self.facts["build_seconds"], 1e-6), scalars)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
 
 from shapewright import metric
 from shapewright.building import Build
@@ -23,8 +24,10 @@ from shapewright.threads import in_threads
 Floats = NDArray[np.float64]
 SMALL = 64
 """Pixels along the side of the pictures that are compared while searching."""
-UNIT = 100.0
-"""A pixel's residual where one picture is black and the other white; the search takes a fifth of that as small."""
+SCALES = ((3.0, 4), (6.0, 8), (12.0, 16))
+"""Their blurs, as standard deviations in pixels, and the pixels between the samples that are taken of each."""
+UNIT = 56.0
+"""What a black pixel counts; sets what the search takes as small."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,20 +64,21 @@ class PictureJudge:
         return np.array(in_threads(distance, asked, self.settings.workers))
 
     def search_residuals(self, pairs: Sequence[tuple[int, Shape]]) -> list[Floats | None]:
-        """What a replica and the reference with that index do not share: the differences of their small pictures.
+        """How a replica and the reference with that index differ as pictures, blurred at several scales.
 
-        The sum of absolute values is the area that only one of them covers. None where one cannot be seen.
+        Blurred pictures change evenly while an edge moves by as much as the blur is wide, sharp ones within a pixel.
+        None where one cannot be seen.
         """
-        targets = {i: _coverage(self.references.references[i].shape) for i in {i for i, _ in pairs}}
+        targets = {i: _blurred(self.references.references[i].shape) for i in {i for i, _ in pairs}}
 
         def residual(asked: tuple[int, Shape]) -> Floats | None:
-            return _coverage(asked[1]) - targets[asked[0]] if self._pair(*asked) else None
+            return _blurred(asked[1]) - targets[asked[0]] if self._pair(*asked) else None
 
         return in_threads(residual, pairs, self.settings.workers)
 
     @property
     def goal(self) -> None:
-        """Areas say nothing of which replica is surely compatible."""
+        """The residuals say nothing of which replica is surely compatible."""
         return None
 
     def overlaps(self, builds: Sequence[Build]) -> tuple[Floats, Floats]:
@@ -112,10 +116,13 @@ class PictureJudge:
         return (reference, shape) if outline.silhouette(shape).any() else None
 
 
-def _coverage(shape: Shape) -> Floats:
-    """(SMALL * SMALL,): how much of each pixel a drawing covers, in units of UNIT."""
+def _blurred(shape: Shape) -> Floats:
+    """(336,): a drawing at every one of the SCALES, in units of UNIT for each pixel of the picture."""
     assert isinstance(shape, Drawing)
-    return np.asarray(picture(shape, SMALL, 8)[0].ravel() * (UNIT / 255.0))
+    sharp = picture(shape, SMALL, 8)[0] * (UNIT / 255.0)
+    return np.concatenate(
+        [gaussian_filter(sharp, blur, mode="constant")[s // 2 :: s, s // 2 :: s].ravel() * s**2 for blur, s in SCALES]
+    )
 
 
 def _describe(shape: Shape) -> outline.Outline | None:

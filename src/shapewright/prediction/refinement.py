@@ -30,13 +30,15 @@ class Round:
 
     A combination is first built as it is, then once with each scalar moved a little; only from its third round on are
     there ``steps`` along the model of its residuals, and ``strays``, random points around its best. near: only for
-    references whose cost is above the goal but at most so many times it, and only while it is.
+    references whose cost is above the goal but at most so many times it, and only while it is. afresh: instead of steps
+    the scalars are each moved a little again, because the model has aged.
     """
 
     combinations: int
     steps: int = 2
     strays: int = 0
     near: float | None = None
+    afresh: bool = False
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ class Budget:
         return Budget(self.rounds[:fit] or (Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
 
     def _spent(self, scalars: int) -> list[int]:
-        each = [1, scalars, *(r.steps + r.strays for r in self.rounds[2:])]
+        each = [1, scalars, *(scalars if r.afresh else r.steps + r.strays for r in self.rounds[2:])]
         return [r.combinations * points for r, points in zip(self.rounds, each, strict=False)]
 
 
@@ -63,6 +65,10 @@ QUICK = Budget(
     (Round(8), Round(3), Round(2, 2, 2), *(Round(1, 2, 3),) * 2, *(Round(1, 2, 4, near=1.4),) * 12),
 )
 THOROUGH = Budget((Round(24), Round(12), *(Round(8, 2, 4),) * 3, *(Round(4, 2, 6),) * 6, *(Round(2, 2, 8),) * 20))
+_AGAIN = (Round(1, afresh=True), Round(1, 3))
+DRAWN = Budget((Round(10), Round(4), Round(4, 3), Round(2, afresh=True), Round(2, 3), *_AGAIN * 5))
+DRAWN_THOROUGH = Budget((Round(30), Round(12), Round(12, 3), *(Round(5, afresh=True), Round(5, 3)) * 3, *_AGAIN * 8))
+"""Drawings are built and measured quickly, but what pictures say changes more from place to place."""
 _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1
 _PROBE = 0.04
@@ -150,6 +156,7 @@ def refine(
             search.arms.sort(key=lambda arm: arm.cost)
             if search.cost > enough and search.worth(turn.near, goal):
                 for arm in search.arms[: turn.combinations]:
+                    arm.slopes = None if turn.afresh else arm.slopes
                     asked += [_Trial(i, arm, point) for point in _propose(space, arm, turn, search)]
         vectors = [space.canonical(space.decode(trial.point)) for trial in asked]
         residuals = _residuals(measure, [trial.reference for trial in asked], crew.build(vectors))
