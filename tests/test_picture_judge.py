@@ -1,13 +1,17 @@
+from typing import Annotated
+
 import numpy as np
 import pytest
 import shapely
 
 import shapewright as sw
-from shapewright.building import Build
+from shapewright import Range
+from shapewright.building import Build, Workers
 from shapewright.judge import Judge, judge_of
 from shapewright.modelling.drawing import box, circle
 from shapewright.modelling.solids import box as block
 from shapewright.picture_judge import SCALES, SMALL, UNIT, PictureJudge
+from shapewright.prediction.refinement import DRAWN, refine
 from shapewright.rendering.ink import HALF
 
 
@@ -73,3 +77,30 @@ def test_what_cannot_be_seen_is_never_replicated():
 
 def shapely_thin():
     return sw.Drawing(shapely.box(0, 0, 1000, 0.001))
+
+
+@sw.procedure
+def desk(
+    height: Annotated[float, Range(0.3, 1.0)] = 0.6,
+    leg: Annotated[float, Range(0.02, 0.15)] = 0.1,
+    inset: Annotated[float, Range(0.0, 0.25)] = 0.0,
+    bar: bool = False,
+):
+    side = box((leg, height), at=(0.5 - inset - leg / 2, height / 2)).mirror("x", keep=True)
+    shape = box((1, 0.06), at=(0, height - 0.03)) | side
+    return shape | box((1 - 2 * inset - leg, 0.05), at=(0, height / 3)) if bar else shape
+
+
+def test_a_search_finds_thin_legs_that_nothing_overlaps_at_first():
+    truth = [
+        {"height": 0.85, "leg": 0.03, "inset": 0.05, "bar": True},
+        {"height": 0.45, "leg": 0.05, "inset": 0.2, "bar": False},
+    ]
+    references = sw.Collection.of({str(i): desk(**values) for i, values in enumerate(truth)})
+    judge = judge_of(references, sw.Settings(workers=1))
+    start = [np.array([0.5, 0.5]), np.array([0.5, 0.5]), np.array([0.5, 0.5]), np.full((2, 2), 0.5)]
+    with Workers(desk, 1) as crew:
+        found = crew.build(refine(desk.space, start, crew, judge.search_residuals, DRAWN, seed=1))
+    assert [build.parameters["bar"] for build in found] == [True, False]
+    assert (judge.overlaps(found)[0] > 0.93).all()
+    assert DRAWN.evaluations(3) < 150 and DRAWN.within(30, 3).evaluations(3) <= 30

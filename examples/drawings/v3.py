@@ -10,19 +10,19 @@ from shapewright.modelling.drawing import box, polygon, union
 def table(
     height: Annotated[float, Range(0.2, 2.2)] = 0.6,  # of the width, as all lengths
     top: Annotated[float, Range(0.008, 0.3)] = 0.05,
-    base: Literal["legs", "column"] = "legs",
+    base: Literal["straight", "leaning", "column"] = "straight",
     leg: Annotated[float, Range(0.01, 0.3)] = 0.06,  # its width under the top
-    foot: Annotated[float, Range(0.2, 2.0)] = 1.0,  # of that, its width on the floor
-    inset: Annotated[float, Range(0.0, 0.35, when=lambda p: p.base == "legs")] = 0.0,
-    splay: Annotated[float, Range(-0.2, 0.25, when=lambda p: p.base == "legs")] = 0.0,
+    foot: Annotated[float, Range(0.2, 2.0, when=lambda p: p.base != "straight")] = 1.0,
+    inset: Annotated[float, Range(0.0, 0.35, when=lambda p: p.base != "column")] = 0.0,
+    splay: Annotated[float, Range(-0.2, 0.25, when=lambda p: p.base == "leaning")] = 0.0,
     plate: Annotated[float, Range(0.1, 1.0, when=lambda p: p.base == "column")] = 0.5,
     plate_height: Annotated[float, Range(0.005, 0.3, when=lambda p: p.base == "column")] = 0.04,
-    middle: Annotated[bool, When(lambda p: p.base == "legs")] = False,
-    apron: Annotated[float, Range(0.0, 0.35, when=lambda p: p.base == "legs")] = 0.0,
-    bars: Annotated[int, Range(0, 2, when=lambda p: p.base == "legs")] = 0,
-    level: Annotated[float, Range(0.0, 0.95, when=lambda p: p.base == "legs" and p.bars > 0)] = 0.2,
-    bar: Annotated[float, Range(0.01, 0.2, when=lambda p: p.base == "legs" and p.bars > 0)] = 0.04,
-    second: Annotated[float, Range(0.0, 0.9, when=lambda p: p.base == "legs" and p.bars > 1)] = 0.5,
+    middle: Annotated[bool, When(lambda p: p.base != "column")] = False,
+    apron: Annotated[float, Range(0.0, 0.35, when=lambda p: p.base != "column")] = 0.0,
+    bars: Annotated[int, Range(0, 2, when=lambda p: p.base != "column")] = 0,
+    level: Annotated[float, Range(0.0, 0.95, when=lambda p: p.base != "column" and p.bars > 0)] = 0.2,
+    bar: Annotated[float, Range(0.01, 0.2, when=lambda p: p.base != "column" and p.bars > 0)] = 0.04,
+    second: Annotated[float, Range(0.0, 0.9, when=lambda p: p.base != "column" and p.bars > 1)] = 0.5,
 ):
     top = min(top, 0.9 * height)
     under = height - top
