@@ -177,7 +177,7 @@ def made(
         )
         for reference, found in zip(references, known, strict=True)
     )
-    return sw.Iteration(results, (), settings, {}, {}, "", {}, {}, {}, "")
+    return sw.Iteration(results, judge.metric, (), settings, {}, {}, "", {}, {}, {}, "")
 
 
 def main() -> None:

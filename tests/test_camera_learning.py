@@ -42,7 +42,7 @@ def test_the_gradient_is_that_of_the_whole_loss():
     targets, active = torch.from_numpy(data.targets), torch.from_numpy(data.active)
 
     def pictures(cameras):
-        return torch.from_numpy(render(data.meshes, cameras, 32, fine, threads=1)).float() / 255.0
+        return torch.from_numpy(render(data.shapes, cameras, 32, fine, threads=1)).float() / 255.0
 
     def whole(cameras):
         with torch.no_grad():
@@ -50,7 +50,7 @@ def test_the_gradient_is_that_of_the_whole_loss():
 
     images = pictures(THREE_VIEWS).requires_grad_()
     loss(block.space, network(images), targets, active).backward()
-    ours = camera_gradient(data.meshes, THREE_VIEWS, images.grad.numpy(), step, fine)
+    ours = camera_gradient(data.shapes, THREE_VIEWS, images.grad.numpy(), step, fine)
     numerical, start = np.zeros((3, 3)), positions(THREE_VIEWS)
     for i in np.ndindex(3, 3):
         offset = np.zeros((3, 3))

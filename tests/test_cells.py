@@ -65,6 +65,15 @@ def test_coordinates_that_are_all_but_equal_are_one():
     assert Mesh(gap[0], gap[1]).soundness().components == 2
 
 
+def test_narrow_ledges_are_divided_without_slivers():
+    for ledge in np.geomspace(1e-5, 1e-2, 40):
+        top, leg = ((0, 1, 0), (1, 1.06, 0.65)), (ledge, 0, ledge)
+        points, faces, _ = made([top[0], leg], [top[1], (0.04, 1, 0.04)])
+        mesh = Mesh(points, faces)
+        assert mesh.soundness().sound, ledge
+        assert volume(mesh) == pytest.approx(0.06 * 0.65 + (0.04 - ledge) ** 2, abs=1e-6)
+
+
 @pytest.mark.parametrize("other", [(1, 1, 0), (1, 1, 1)])
 def test_boxes_that_meet_in_an_edge_or_a_corner_only_are_left_to_booleans(other):
     assert made([(0, 0, 0), other], [(1, 1, 1), tuple(np.add(other, 1))]) is None

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,6 +13,7 @@ from hypothesis.extra import numpy as npst
 import shapewright as sw
 from shapewright.references import Collection, CollectionError, Orientation
 from shapewright.references.orientation import AXES
+from shapewright.shapes import Drawing
 
 SHARED = Path(__file__).resolve().parents[1].parent / "shared"
 ORIENTATIONS = [(up, front) for up in AXES for front in AXES if up[-1] != front[-1]]
@@ -138,8 +140,8 @@ class TestInMemory:
     @pytest.mark.parametrize(
         ("shape", "message"),
         [
-            ("a.obj", "^seat: str is no mesh; give a Mesh, a trimesh"),
-            (None, "^seat: NoneType is no mesh"),
+            ("a.obj", "^seat: str is no shape; give a Mesh, a trimesh"),
+            (None, "^seat: NoneType is no shape"),
             ((WEDGE, FACES + 9), "^seat: faces point outside the 4 vertices"),
             ((WEDGE * np.nan, FACES), "^seat: .*not finite"),
             ((WEDGE, FACES * 0), "^seat: .*no size"),
@@ -150,11 +152,17 @@ class TestInMemory:
         with pytest.raises(CollectionError, match=message):
             Collection.of({"seat": shape})
 
-    def test_a_drawing_is_no_mesh(self):
-        import shapely
+    def test_drawings_are_normalised_too(self):
+        references = Collection.of({"seat": shapely.box(2, 0, 6, 2), "back": Drawing(shapely.box(0, 0, 1, 1))})
+        seat = references["seat"]
+        assert references.kind is Drawing
+        assert seat.shape.bounds == pytest.approx(np.array([[-0.5, -0.25], [0.5, 0.25]]))
+        assert seat.to_original([[0.5, 0.25]]) == pytest.approx(np.array([[6, 2]]))
+        assert seat.digest != references["back"].digest
 
-        with pytest.raises(CollectionError, match=r"^seat: a drawing; a collection holds meshes"):
-            Collection.of({"seat": shapely.box(0, 0, 1, 1)})
+    def test_meshes_and_drawings_do_not_mix(self):
+        with pytest.raises(CollectionError, match=r"1 meshes and 1 drawings \(leg, ...\) in one collection; load one"):
+            Collection.of({"seat": (WEDGE, FACES), "leg": shapely.box(0, 0, 1, 1)})
 
     def test_no_shapes(self):
         with pytest.raises(CollectionError, match="at least one"):

@@ -9,7 +9,7 @@ from shapewright import Range
 from shapewright.building import build_all
 from shapewright.modelling.solids import box, cylinder
 from shapewright.parameters import Binary, Choice, ParameterSpace, Scalar
-from shapewright.prediction.dataset import make_dataset, meshes_of, split
+from shapewright.prediction.dataset import make_dataset, shapes_of, split
 from shapewright.prediction.evaluation import infer, score
 from shapewright.prediction.network import CompactNetwork, loss
 from shapewright.prediction.training import Schedule, train_network
@@ -118,4 +118,4 @@ def test_a_procedure_that_draws_cannot_be_trained_on_meshes():
         return shapely.box(0, 0, size, 1)
 
     with pytest.raises(sw.ProcedureError, match="only 0 of 12 sampled shapes can be used: it builds drawings"):
-        meshes_of(build_all(square, square.space.sample(12), workers=1))
+        shapes_of(build_all(square, square.space.sample(12), workers=1), sw.Mesh)

@@ -52,12 +52,19 @@ class TestFolder:
         folder = tree(*(model + extension for model in models for extension in (".obj", ".mtl", ".json")))
         assert names(folder / start) == (["1a04"] if start.endswith("1a04") else ["1a04", "9f", "10b"])
 
+    def test_pictures_beside_meshes_are_textures(self, tree):
+        assert names(tree("a.obj", "wood.png", "b.ply")) == ["a", "b"]
+        assert names(tree("c/preview.png", "c/1/a.obj", "c/1/wood.png") / "c") == ["a"]
+        drawings = tree("d/1.png", "d/2.SVG", "d/more/3.png") / "d"
+        assert names(drawings) == ["1", "2"]
+        assert names(drawings / "**" / "*.png") == ["1", "3"]
+
     def test_nothing_there(self, tree):
         folder = tree("a.fbx", "b.FBX", "x/wood.jpg", "x/readme")
         with pytest.raises(CollectionError) as error:
             find([folder])
         assert str(error.value) == (
-            f"{folder} holds no shapes: looked for .3mf .glb .gltf .obj .off .ply .stl, "
+            f"{folder} holds no shapes: looked for .3mf .glb .gltf .obj .off .ply .png .stl .svg, "
             "found 2 .fbx, 1 without extension, 1 .jpg"
         )
 

@@ -18,14 +18,16 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.comparison.grouping import Group
+from shapewright.facing import quarter_turns
 from shapewright.iteration import Iteration, draw_pictures
-from shapewright.judge import Judge
+from shapewright.judge import Judge, judge_of
 from shapewright.learning import Lesson, learn, learn_more, limits_of
 from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.picture_judge import PictureJudge
 from shapewright.prediction.adaptive import around
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.lookup import nearest
-from shapewright.prediction.refinement import QUICK, THOROUGH, refine
+from shapewright.prediction.refinement import refine
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.records import to_record
@@ -64,9 +66,15 @@ def fit(
             answer = {name: values for name, values in zip(references.names, known, strict=True) if values}
             stages.answer(answer, "carried over")
         watch = None if previous else partial(_first_answer, references, stages, settings)
-        lesson = learn(procedure, crew, settings, stages, previous.predictor if previous else None, watch)
+        predictor = previous.predictor if previous else None
+        lesson = learn(procedure, crew, settings, stages, predictor, watch, references.kind)
+        turns = [0] * len(references)
+        if settings.facing == "found" and references.kind is Mesh:
+            stages.begin("face", len(references))
+            turns = quarter_turns(references, lesson.predictor, crew)
+            references = references.turned(turns)
         stages.begin("describe", len(references))
-        judge = Judge.of(references, settings, cache)
+        judge = judge_of(references, settings, cache)
         found = _Found.none(len(references))
         if previous:
             found = _try(crew, judge, [values or procedure.space.defaults for values in known], found)
@@ -88,6 +96,7 @@ def fit(
     stages.end()
     return Iteration(
         results=results,
+        metric=judge.metric,
         groups=groups,
         settings=settings,
         seconds=stages.seconds,
@@ -105,6 +114,7 @@ def fit(
             "samples": predictor.samples,
             **lesson.facts,
             "first_answer": stages.first_answer,
+            "turned": {name: 90 * turn for name, turn in zip(references.names, turns, strict=True) if turn},
             "epochs": len(predictor.curve),
             "curve": [vars(epoch) for epoch in predictor.curve],
             "validation": predictor.metrics,
@@ -150,7 +160,7 @@ def _first_answer(references: Collection, stages: Stages, settings: Settings, sa
 def _replicate(
     procedure: Procedure,
     crew: Workers,
-    judge: Judge,
+    judge: Judge | PictureJudge,
     lesson: Lesson,
     settings: Settings,
     stages: Stages,
@@ -163,7 +173,7 @@ def _replicate(
     stages.begin("replicate", 1)
     # Of what was found before only that is searched on which is not near yet.
     known = [build.parameters if build else None for build in found.builds]
-    rows = np.flatnonzero(~(found.distances <= _NEAR * settings.threshold))
+    rows = np.flatnonzero(~(found.distances <= _NEAR * judge.metric.threshold))
     found = _try(crew, judge, predicted, found)
     stages.answer(dict(zip(judge.references.names, found.parameters(predicted), strict=True)), "predicted")
     if settings.refine == "off" or not len(rows):
@@ -173,10 +183,11 @@ def _replicate(
         procedure.space,
         [column[rows] for column in inferred],
         crew,
-        lambda pairs: judge.search_costs([(int(rows[i]), mesh) for i, mesh in pairs]),
-        QUICK if settings.refine == "quick" else THOROUGH,
+        lambda pairs: judge.search_residuals([(int(rows[i]), shape) for i, shape in pairs]),
+        lesson.budget(settings),
         settings.seed,
         [known[i] for i in rows],
+        judge.goal,
         stages.step,
     )
     vectors = found.parameters(predicted)
@@ -185,7 +196,7 @@ def _replicate(
     return _try(crew, judge, vectors, found)
 
 
-def _try(crew: Workers, judge: Judge, vectors: Sequence[Parameters], found: _Found) -> _Found:
+def _try(crew: Workers, judge: Judge | PictureJudge, vectors: Sequence[Parameters], found: _Found) -> _Found:
     """Build one vector for each reference, and keep it where it is nearer than what was found before."""
     builds = crew.build(vectors)
     distances = judge.distances(builds)
@@ -211,8 +222,8 @@ def _results(
             path=reference.path,
             parameters=build.parameters,
             active=procedure.space.active(build.parameters),
-            at_limit=at_limit(procedure.space, build.parameters) if isinstance(build.shape, Mesh) else (),
-            replica=build.shape if isinstance(build.shape, Mesh) else None,
+            at_limit=at_limit(procedure.space, build.parameters) if build.shape else (),
+            replica=build.shape,
             distance=float(distance),
             iou=float(iou),
             chamfer=float(surface),

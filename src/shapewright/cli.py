@@ -18,12 +18,14 @@ from shapewright.options import (
     Cameras,
     Device,
     Epochs,
+    Front,
     Json,
     Preset,
     ProcedureArgument,
     Refine,
     Samples,
     Seed,
+    Up,
     Views,
     Workers,
 )
@@ -89,18 +91,23 @@ def fit(
     ] = None,
     device: Device = "auto",
     threshold: Annotated[
-        float | None, typer.Option(help="Largest distance of a compatible reference.  [dim]default: 0.18[/]")
+        float | None, typer.Option(help="Largest distance of a compatible mesh.  [dim]default: 0.18[/]")
     ] = None,
     marks: Annotated[
         bool, typer.Option("--marks", help="Judge as the project's marks say: see [bold]shapewright mark[/].")
     ] = False,
+    fidelity: Annotated[
+        float, typer.Option(help="Least visual information fidelity of a compatible drawing.")
+    ] = Settings.fidelity,
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
     ] = "free",
-    up: Annotated[str, typer.Option(help="The axis of the files that points up: x, y, z, -x, -y, -z.")] = "y",
-    front: Annotated[
-        str | None, typer.Option(help="The axis that points to the front.  [dim]default: z, or -y where up is z[/]")
-    ] = None,
+    facing: Annotated[
+        Literal["given", "found"],
+        typer.Option(help="found turns each reference by the quarter turns about the up axis that fit best."),
+    ] = "given",
+    up: Up = "y",
+    front: Front = None,
     time_limit: Annotated[float, typer.Option(help="Seconds that building one shape may take.")] = 10.0,
     memory_limit: Annotated[int, typer.Option(help="Megabytes that building one shape may take.")] = 2048,
     explain: Annotated[bool, typer.Option("--explain", help="Say why, and what to write next.")] = False,
@@ -119,7 +126,9 @@ def fit(
         seed=seed,
         rounds=rounds,
         device=device,
+        fidelity=fidelity,
         align=align,
+        facing=facing,
         shape_seconds=time_limit,
         shape_memory_mb=memory_limit,
         workers=workers,
@@ -148,6 +157,10 @@ def evaluate(
     cameras: Cameras = None,
     views: Views = None,
     refine: Refine = None,
+    compare: Annotated[
+        Literal["cameras", "views", "both"] | None,
+        typer.Option(help="cameras: fixed against learned; views: 1, 2, 3 and 5 cameras; both: all combinations."),
+    ] = None,
     device: Device = "auto",
     workers: Workers = None,
     json: Json = False,
@@ -155,16 +168,24 @@ def evaluate(
     """Measure how well the parameters of a procedure are found, on samples that were held out."""
     from shapewright.console import print_json, print_trials, progress_bars
     from shapewright.evaluation import evaluate as run_trials
-    from shapewright.evaluation import summary
+    from shapewright.evaluation import summary, variants
 
     given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
     settings = Settings.preset(preset, **given, device=device, workers=workers)
-    with progress_bars(err) as listen:
-        trials = list(run_trials(load_procedure(procedure), [settings], range(seeds), listen))
+    author = load_procedure(procedure)
+    found = []
+    for variant in variants(settings, compare):
+        with progress_bars(err) as listen:
+            trials = list(run_trials(author, [variant], range(seeds), listen))
+        seconds = [trial.seconds for trial in trials]
+        record = {"cameras": variant.cameras, "views": variant.views, "parameters": summary(trials), "seconds": seconds}
+        found.append(record)
+        if not json:
+            if compare:
+                out.print(f"\n[bold]{variant.cameras} cameras, {variant.views}[/]", highlight=False)
+            print_trials(out, trials)
     if json:
-        print_json({"parameters": summary(trials), "seconds": [trial.seconds for trial in trials]})
-    else:
-        print_trials(out, trials)
+        print_json({"variants": found} if compare else found[0])
 
 
 @app.command()
@@ -208,6 +229,32 @@ def sample(
     else:
         unsound = f", {samples.unsound} of them unsound," if samples.unsound else ""
         out.print(f"{samples.shapes} shapes{unsound} and {MANIFEST} in {escape(str(out_dir))}", highlight=False)
+
+
+@app.command()
+def silhouettes(
+    references: Annotated[str, typer.Argument(help="Meshes: a folder, a glob in quotes, a CSV manifest, or a file.")],
+    out_dir: Annotated[Path, typer.Option("--out", help="Folder for the drawings.")],
+    view: Annotated[Literal["front", "side", "top"], typer.Option(help="Where they are seen from.")] = "front",
+    format: Annotated[Literal["svg", "png"], typer.Option(help="Kind of file.")] = "svg",
+    up: Up = "y",
+    front: Front = None,
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Write silhouettes of meshes as drawings, which procedures that draw can be fitted to."""
+    from shapewright.console import print_json
+    from shapewright.silhouettes import write_silhouettes
+
+    loaded = _load(references, up, front)
+    skipped = {str(path): reason for path, reason in loaded.skipped.items()}
+    paths, unseen = write_silhouettes(loaded, out_dir.absolute(), view, format, workers)
+    for name, reason in (skipped | unseen).items():
+        err.print(f"[yellow]skipped[/] {escape(name)}: {escape(reason)}", highlight=False, soft_wrap=True)
+    if json:
+        print_json({"out": str(out_dir.absolute()), "drawings": len(paths), "skipped": skipped | unseen})
+    else:
+        out.print(f"{len(paths)} drawings in {escape(str(out_dir))}", highlight=False)
 
 
 @app.command()

@@ -85,7 +85,7 @@ def print_iteration(console: Console, iteration: Iteration, folder: Path) -> Non
     total = len(iteration)
     console.print(
         f"\n[bold]{len(iteration.compatible)} of {total}[/] references are compatible "
-        f"(light-field distance at most {iteration.settings.threshold:g})",
+        f"({iteration.metric.criterion}); their mean IoU is {iteration.mean_iou:.3f}",
         highlight=False,
     )
     skipped = iteration.collection["skipped"]
@@ -120,6 +120,7 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
         "run": str(folder),
         "report": str(folder / "report.html"),
         "references": len(iteration),
+        "metric": record["metric"],
         "compatible": len(iteration.compatible),
         "incompatible": len(iteration.incompatible),
         "skipped": record["collection"]["skipped"],

@@ -10,8 +10,8 @@ from shapewright.shapes import Drawing, Mesh, Shape, concatenate
 
 TESSELLATION = 5e-4
 _ACCEPTED = (
-    "a Mesh, Drawing or Solid, a trimesh.Trimesh or Scene, (vertices, faces), a manifold3d.Manifold or CrossSection, "
-    "a shapely geometry, a build123d or CadQuery object, or a list of these"
+    "a Mesh, Drawing, Solid or Sketch, a trimesh.Trimesh or Scene, (vertices, faces), a manifold3d.Manifold or "
+    "CrossSection, a shapely geometry, a build123d or CadQuery object, or a list of these"
 )
 
 
@@ -41,8 +41,9 @@ def _convert(value: Any) -> Shape:
         return _join([_convert(item) for item in value])
     if hasattr(value, "geom_type") and hasattr(value, "wkb"):
         return _drawing(value)
-    if callable(getattr(value, "mesh", None)):
-        return _convert(value.mesh())
+    for maker in ("mesh", "drawing"):
+        if callable(getattr(value, maker, None)):
+            return _convert(getattr(value, maker)())
     if callable(getattr(value, "to_mesh", None)) and hasattr(value, "num_tri"):
         mesh = value.to_mesh()
         return _mesh(np.asarray(mesh.vert_properties)[:, :3], mesh.tri_verts)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.judge import Judge
+from shapewright.judge import judge_of
 from shapewright.learning import Lesson, learn, limits_of
 from shapewright.prediction.evaluation import Metrics, score
-from shapewright.prediction.refinement import QUICK, THOROUGH, refine
+from shapewright.prediction.refinement import refine
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
@@ -19,6 +20,9 @@ from shapewright.settings import Settings
 
 REFINED = 100
 """Held-out samples that refinement is measured on, at most."""
+
+VIEWS = (1, 2, 3, 5)
+CAMERAS: tuple[Literal["fixed", "learned"], ...] = ("fixed", "learned")
 
 
 @dataclass(frozen=True)
@@ -54,6 +58,16 @@ def evaluate(
             yield Trial(chosen, lesson.predictor.metrics, refined, seconds)
 
 
+def variants(settings: Settings, compared: Literal["cameras", "views", "both"] | None) -> list[Settings]:
+    """The settings with each kind ("cameras") or number ("views") of cameras, or all combinations ("both")."""
+    found = [settings]
+    if compared in ("views", "both"):
+        found = [replace(each, views=views) for each in found for views in VIEWS]
+    if compared in ("cameras", "both"):
+        found = [replace(each, cameras=cameras) for each in found for cameras in CAMERAS]
+    return found
+
+
 def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, float]]]:
     """Per parameter and measure (mae, or f1; and refined) the mean over the trials, the least and the most."""
     table: dict[str, dict[str, tuple[float, float, float]]] = {}
@@ -69,12 +83,14 @@ def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, 
 def _refined(procedure: Procedure, crew: Workers, lesson: Lesson, settings: Settings, stages: Stages) -> Metrics:
     """The metrics after refinement, on the first REFINED held-out rows."""
     held_out = lesson.held_out.take(np.arange(min(REFINED, len(lesson.held_out))))
-    shapes = Collection.of({f"{i:03d}": mesh for i, mesh in enumerate(held_out.meshes)})
-    judge = Judge.of(shapes, settings)
-    inferred = lesson.predictor.infer(held_out.meshes)
-    budget = QUICK if settings.refine == "quick" else THOROUGH
-    stages.begin("refine", len(budget.rungs))
-    found = refine(procedure.space, inferred, crew, judge.search_costs, budget, settings.seed, progress=stages.step)
+    shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
+    judge = judge_of(shapes, settings)
+    inferred = lesson.predictor.infer(held_out.shapes)
+    stages.begin("refine", 1)
+    budget, measure = lesson.budget(settings), judge.search_residuals
+    found = refine(
+        procedure.space, inferred, crew, measure, budget, settings.seed, goal=judge.goal, progress=stages.step
+    )
     encoded = np.array([procedure.space.encode(values) for values in found], dtype=np.float32)
     answers = [
         np.eye(parameter.classes, dtype=np.float32)[encoded[:, i].astype(int)] if parameter.classes else encoded[:, i]

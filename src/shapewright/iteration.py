@@ -6,7 +6,7 @@ import csv
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -14,12 +14,15 @@ from typing import Any
 import numpy as np
 
 from shapewright.comparison.grouping import Group
+from shapewright.export import svg
+from shapewright.metric import Metric, light_field
 from shapewright.prediction.predictor import Predictor
+from shapewright.references.svg import read_svg
 from shapewright.rendering.thumbnails import thumbnails
 from shapewright.report import write_report
-from shapewright.results import Result, file_names, from_record, to_record
+from shapewright.results import Result, file_names, from_record, replica_path, to_record
 from shapewright.settings import Settings
-from shapewright.shapes import Mesh
+from shapewright.shapes import Mesh, Shape
 from shapewright.workspace import FORMAT, RECORD, new_folder, read_record
 
 Pictures = Mapping[str, tuple[bytes, bytes | None]]
@@ -29,10 +32,12 @@ Pictures = Mapping[str, tuple[bytes, bytes | None]]
 class Iteration:
     """The results of one turn of the loop: ``it["name"]``, ``it.compatible``, ``it.groups``, ``it.seconds``.
 
-    procedure, collection, metrics, versions: records as the run's JSON holds them. source: text of the procedure.
+    metric: by which references are compatible. procedure, collection, metrics, versions: records as the run's JSON
+    holds them. source: text of the procedure.
     """
 
     results: tuple[Result, ...]
+    metric: Metric
     groups: tuple[Group, ...]
     settings: Settings
     seconds: Mapping[str, float]
@@ -73,6 +78,12 @@ class Iteration:
     def incompatible(self) -> tuple[str, ...]:
         return tuple(result.name for result in self.results if not result.compatible)
 
+    @property
+    def mean_iou(self) -> float:
+        """Of the compatible references with their replicas; NaN where there are none."""
+        found = [result.iou for result in self.results if result.compatible]
+        return float(np.mean(found)) if found else math.nan
+
     @cached_property
     def record(self) -> dict[str, Any]:
         """Everything but meshes and pictures, as plain values for JSON; NaN becomes null."""
@@ -86,7 +97,8 @@ class Iteration:
             "settings": self.settings.record(),
             "procedure": dict(self.procedure),
             "collection": dict(self.collection),
-            "threshold": self.settings.threshold,
+            "threshold": self.metric.threshold,
+            "metric": asdict(self.metric),
             "references": [to_record(result, slugs[result.name]) for result in self.results],
             "groups": [{"representative": g.representative, "members": list(g.members)} for g in self.groups],
             "metrics": dict(self.metrics),
@@ -118,11 +130,13 @@ class Iteration:
         """Read a run back, without the references' meshes. Raises RunError when the folder holds no whole run."""
         folder = Path(folder).expanduser()
         record = read_record(folder)
+        settings = Settings.from_record(record["settings"])
         groups = tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"])
         return cls(
             results=tuple(from_record(entry, _read_replica(folder, entry)) for entry in record["references"]),
+            metric=Metric(**record["metric"]) if "metric" in record else light_field(settings.threshold),
             groups=groups,
-            settings=Settings.from_record(record["settings"]),
+            settings=settings,
             seconds=record["seconds"],
             procedure=record["procedure"],
             source=(folder / "procedure.py").read_text(encoding="utf-8"),
@@ -148,8 +162,9 @@ class Iteration:
         slugs = file_names(self.names)
         for result in self.results:
             slug = slugs[result.name]
-            if result.replica is not None:
-                (folder / "replicas" / f"{slug}.glb").write_bytes(_glb(result.replica))
+            if result.replica is not None and (path := replica_path(result.replica, slug)):
+                data = _glb(result.replica) if isinstance(result.replica, Mesh) else svg(result.replica)
+                (folder / path).write_bytes(data)
             for kind, picture in zip(("reference", "replica"), pictures[result.name], strict=True):
                 if picture is not None:
                     (folder / "thumbnails" / f"{slug}.{kind}.png").write_bytes(picture)
@@ -191,10 +206,12 @@ def _glb(mesh: Mesh) -> bytes:
     return exported
 
 
-def _read_replica(folder: Path, entry: Mapping[str, Any]) -> Mesh | None:
+def _read_replica(folder: Path, entry: Mapping[str, Any]) -> Shape | None:
     import trimesh
 
     if not entry["replica"]:
         return None
+    if entry["replica"].endswith(".svg"):
+        return read_svg((folder / entry["replica"]).read_bytes())[0]
     mesh = trimesh.load_mesh(folder / entry["replica"], process=False)
     return Mesh(np.asarray(mesh.vertices), np.asarray(mesh.faces))

@@ -1,4 +1,4 @@
-"""The judge: knows the references, and measures how far replicas are from them."""
+"""The judge: knows the references, and measures how far replicas are from them. Drawings have one of their own."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from shapewright import metric
 from shapewright.building import Build
 from shapewright.comparison import light_field
 from shapewright.comparison.aligned import AlignedCost
@@ -18,12 +19,18 @@ from shapewright.comparison.leaders import LARGE, group_by_leaders
 from shapewright.comparison.silhouettes import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
 from shapewright.comparison.verdict import is_same
+from shapewright.picture_judge import PictureJudge
 from shapewright.references import Collection
 from shapewright.settings import Settings
-from shapewright.shapes import Mesh
+from shapewright.shapes import Mesh, Shape
 from shapewright.threads import in_threads
 
 Floats = NDArray[np.float64]
+
+
+def judge_of(references: Collection, settings: Settings, cache: Path | None = None) -> Judge | PictureJudge:
+    """The judge of a collection of meshes or of drawings; cache: a folder that keeps the descriptors of meshes."""
+    return (Judge if references.kind is Mesh else PictureJudge).of(references, settings, cache)
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,33 +47,55 @@ class Judge:
     @classmethod
     def of(cls, references: Collection, settings: Settings, cache: Path | None = None) -> Judge:
         """Describe the references; cache: a folder that keeps the descriptors."""
-        shapes = [reference.shape for reference in references]
+        shapes = [_mesh(reference.shape) for reference in references]
         return cls(references, tuple(_describe(shapes, settings.workers, cache)), settings)
+
+    @property
+    def metric(self) -> metric.Metric:
+        return metric.light_field(self.settings.threshold)
 
     def distances(self, builds: Sequence[Build], rows: Sequence[int] | None = None) -> Floats:
         """Normalised light-field distance of one build for each reference, (N,); NaN where it cannot be measured.
 
         rows: indices of the references that the builds are for, all of them by default.
         """
-        described = _describe([_mesh(build) for build in builds], self.settings.workers)
+        described = _describe([_mesh(build.shape) for build in builds], self.settings.workers)
         theirs = self.descriptors if rows is None else [self.descriptors[i] for i in rows]
         pairs = zip(theirs, described, strict=True)
         align = self.settings.align
         return np.array([light_field.distance(a, b, align) if a and b else np.nan for a, b in pairs])
 
-    def search_costs(self, pairs: Sequence[tuple[int, Mesh]]) -> list[float]:
+    def search_costs(self, pairs: Sequence[tuple[int, Shape]]) -> list[float]:
         """Costs to search by: of a replica against the reference with that index, in the pose that it has."""
         targets = {i: AlignedCost(d) for i, _ in pairs if (d := self.descriptors[i]) is not None}
-        return in_threads(
-            lambda pair: targets[pair[0]](pair[1]) if pair[0] in targets else np.inf, pairs, self.settings.workers
-        )
+
+        def cost(pair: tuple[int, Shape]) -> float:
+            mesh = _mesh(pair[1])
+            return targets[pair[0]](mesh) if mesh and pair[0] in targets else np.inf
+
+        return in_threads(cost, pairs, self.settings.workers)
+
+    def search_residuals(self, pairs: Sequence[tuple[int, Shape]]) -> list[Floats | None]:
+        """What the cost of each replica is made of: vectors whose sums of absolute values are the costs, smoothed."""
+        targets = {i: AlignedCost(d) for i, _ in pairs if (d := self.descriptors[i]) is not None}
+
+        def residual(pair: tuple[int, Shape]) -> Floats | None:
+            i, shape = pair
+            return targets[i].residual(shape) if i in targets and isinstance(shape, Mesh) else None
+
+        return in_threads(residual, pairs, self.settings.workers)
+
+    @property
+    def goal(self) -> float:
+        """The cost up to which a replica is surely compatible."""
+        return self.settings.threshold * light_field.RAW_SCALE
 
     def overlaps(self, builds: Sequence[Build]) -> tuple[Floats, Floats]:
         """IoU of silhouettes and Chamfer distance of one build for each reference; NaN where there is no mesh."""
         iou, surface = np.full(len(builds), np.nan), np.full(len(builds), np.nan)
-        rows = [i for i, build in enumerate(builds) if _mesh(build) and self.descriptors[i]]
-        theirs = [self.references.references[i].shape for i in rows]
-        ours = [mesh for i in rows if (mesh := _mesh(builds[i]))]
+        rows = [i for i, build in enumerate(builds) if _mesh(build.shape) and self.descriptors[i]]
+        theirs = [mesh for i in rows if (mesh := _mesh(self.references.references[i].shape))]
+        ours = [mesh for i in rows if (mesh := _mesh(builds[i].shape))]
         iou[rows] = intersection_over_union(theirs, ours, threads=self.settings.workers)
         seed = self.settings.seed
         surface[rows] = in_threads(
@@ -77,18 +106,18 @@ class Judge:
     def depths(self, builds: Sequence[Build]) -> Floats:
         """Difference of depth pictures of one build for each reference, (N,); NaN where there is no mesh."""
         depth = np.full(len(builds), np.nan)
-        rows = [i for i, build in enumerate(builds) if _mesh(build) and self.descriptors[i]]
-        ours = [mesh for i in rows if (mesh := _mesh(builds[i]))]
-        theirs = [self.references.references[i].shape for i in rows]
+        rows = [i for i, build in enumerate(builds) if _mesh(build.shape) and self.descriptors[i]]
+        ours = [mesh for i in rows if (mesh := _mesh(builds[i].shape))]
+        theirs = [mesh for i in rows if (mesh := _mesh(self.references.references[i].shape))]
         depth[rows] = depth_difference(theirs, ours, threads=self.settings.workers)
         return depth
 
     def compatible(self, distances: Floats, iou: Floats, depth: Floats) -> NDArray[np.bool_]:
         """Which pairs count as the same: by the metric, where the settings have one, else by the threshold."""
-        metric = self.settings.metric
-        if metric is None:
+        learned = self.settings.metric
+        if learned is None:
             return np.asarray(distances <= self.settings.threshold)
-        return np.array([is_same(metric, *row) for row in zip(distances, iou, depth, strict=True)], dtype=bool)
+        return np.array([is_same(learned, *row) for row in zip(distances, iou, depth, strict=True)], dtype=bool)
 
     def groups(self, compatible: NDArray[np.bool_]) -> tuple[Group, ...]:
         """The references that are not compatible, by likeness to each other."""
@@ -106,8 +135,8 @@ class Judge:
         return group_by_leaders(names, between, settings.cut, settings.cut_absolute, seed=settings.seed)
 
 
-def _mesh(build: Build) -> Mesh | None:
-    return build.shape if isinstance(build.shape, Mesh) else None
+def _mesh(shape: Shape | None) -> Mesh | None:
+    return shape if isinstance(shape, Mesh) else None
 
 
 def _describe(

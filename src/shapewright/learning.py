@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
 from shapewright.building import Build, Limits, Workers, describe_failures
-from shapewright.parameters import Parameters
-from shapewright.prediction.dataset import Dataset, join, make_dataset, meshes_of, split
+from shapewright.parameters import Parameters, Scalar
+from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset, shapes_of, split
 from shapewright.prediction.devices import pick
 from shapewright.prediction.evaluation import measure
 from shapewright.prediction.predictor import Predictor
+from shapewright.prediction.refinement import QUICK, THOROUGH, Budget
 from shapewright.prediction.sensitivity import without_effect
 from shapewright.prediction.training import Epoch, Schedule, train_network
-from shapewright.prediction.vgg import find_weights
+from shapewright.prediction.vgg import VGG19Network, find_weights
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
-from shapewright.rendering.cameras import Camera, starting_views
+from shapewright.rendering.cameras import PAGE, Camera, starting_views
 from shapewright.settings import Settings
+from shapewright.shapes import Drawing, Shape
 
 FIRST = 256
 """Samples that are built and drawn before all others, for the first answer."""
@@ -34,6 +38,14 @@ class Lesson:
     validation: Dataset
     held_out: Dataset
     facts: dict[str, Any]
+
+    def budget(self, settings: Settings) -> Budget:
+        """How long to refine: what the settings say, or less where a shape takes long to build."""
+        budget, seconds = QUICK, settings.refine_seconds
+        if settings.refine == "thorough":
+            budget, seconds = THOROUGH, 10.0 * settings.refine_seconds
+        scalars = sum(isinstance(parameter, Scalar) for parameter in self.predictor.space)
+        return budget.within(seconds / max(self.facts["build_seconds"], 1e-6), scalars)
 
 
 def train(procedure: Procedure, settings: Settings | None = None, progress: Listener | None = None) -> Predictor:
@@ -53,37 +65,39 @@ def learn(
     stages: Stages,
     previous: Predictor | None = None,
     watch: Watcher | None = None,
+    kind: type[Shape] | None = None,
 ) -> Lesson:
     """Train on random samples of the whole space.
 
     previous: a predictor of an earlier version of the procedure, whose network and cameras are gone on from. watch:
-    called with the first FIRST samples as soon as they are drawn.
+    called with the first FIRST samples as soon as they are drawn. kind: what the procedure is to build, Mesh or
+    Drawing; by default what it builds.
     """
     space = procedure.space
+    schedule = _schedule(settings, previous)
     vectors = space.sample(settings.samples, seed=settings.seed)
-    cameras = starting_views(settings.views, settings.camera_distance)
-    if previous and len(previous.cameras) == settings.views:
-        cameras = previous.cameras
     stages.begin("sample", len(vectors))
     builds = crew.build(vectors[:FIRST], give_up=True)
-    first = _draw(procedure, builds, cameras, settings)
+    kind = kind or kind_of(builds)
+    cameras = _cameras(kind, settings, previous)
+    first = _draw(procedure, builds, cameras, settings, kind)
     if watch:
         watch(first)
     builds += crew.build(vectors[FIRST:], lambda done, total: stages.step(FIRST + done, FIRST + total))
-    inert = without_effect(space, meshes_of(builds)[0], crew.build, settings.seed, settings.workers)
+    inert = without_effect(space, shapes_of(builds, kind)[0], crew.build, settings.seed, settings.workers)
     stages.begin("render", len(vectors))
-    data = join([first, _draw(procedure, builds[FIRST:], cameras, settings)]) if builds[FIRST:] else first
+    data = join([first, _draw(procedure, builds[FIRST:], cameras, settings, kind)]) if builds[FIRST:] else first
     parts = [data.take(rows) for rows in split(len(data), settings.seed)]
     failed = [build for build in builds if build.failure]
     facts = {
+        "build_seconds": float(np.median([build.seconds for build in builds])),
         "failed": len(failed),
         "failures": describe_failures(failed) if failed else "",
         "without_effect": inert,
         "cameras": {"before": _places(cameras)},
-        "device": pick(settings.device).type,
+        "device": pick(schedule.device).type,
     }
-    epochs = settings.warm_epochs if previous else settings.epochs
-    return _train(procedure, parts, facts, settings, epochs, stages, previous)
+    return _train(procedure, parts, facts, settings, schedule, stages, previous)
 
 
 def learn_more(
@@ -102,9 +116,11 @@ def learn_more(
     fresh = [build for build in builds if build.shape is not None and tuple(build.parameters.values()) not in seen]
     if not fresh:
         return lesson
-    training = join([lesson.training, _draw(procedure, fresh, lesson.predictor.cameras, settings)])
+    added = _draw(procedure, fresh, lesson.predictor.cameras, settings, lesson.training.kind)
+    training = join([lesson.training, added])
     parts = [training, lesson.validation, lesson.held_out]
-    return _train(procedure, parts, lesson.facts, settings, settings.warm_epochs, stages, lesson.predictor)
+    schedule = _schedule(settings, lesson.predictor)
+    return _train(procedure, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
 
 
 def limits_of(settings: Settings) -> Limits:
@@ -117,16 +133,17 @@ def _train(
     parts: Sequence[Dataset],
     facts: dict[str, Any],
     settings: Settings,
-    epochs: int,
+    schedule: Schedule,
     stages: Stages,
     previous: Predictor | None,
 ) -> Lesson:
     training, validation, held_out = parts
-    schedule = _schedule(settings, epochs)
-    stages.begin("train", epochs)
+    if training.kind is Drawing:
+        schedule = replace(schedule, camera_rate=0.0)
+    stages.begin("train", schedule.epochs)
 
     def tell(epoch: Epoch) -> None:
-        stages.step(epoch.epoch, epochs, f"validation loss {epoch.validation:.3f}")
+        stages.step(epoch.epoch, schedule.epochs, f"validation loss {epoch.validation:.3f}")
 
     initial = previous.network if previous else None
     trained = train_network(procedure.space, training, validation, schedule, tell, settings.workers, initial)
@@ -147,22 +164,37 @@ def _train(
     return Lesson(predictor, training, validation, held_out, {**facts, "cameras": cameras, "weights": weights})
 
 
-def _draw(procedure: Procedure, builds: Sequence[Build], cameras: Sequence[Camera], settings: Settings) -> Dataset:
-    good, meshes = meshes_of(builds)
+def _cameras(kind: type[Shape], settings: Settings, previous: Predictor | None) -> tuple[Camera, ...]:
+    """Those of the previous predictor, where it has as many."""
+    cameras = (PAGE,) if kind is Drawing else starting_views(settings.views, settings.camera_distance)
+    inherit = previous and len(previous.cameras) == len(cameras) and kind is not Drawing
+    return previous.cameras if previous and inherit else cameras
+
+
+def _draw(
+    procedure: Procedure,
+    builds: Sequence[Build],
+    cameras: Sequence[Camera],
+    settings: Settings,
+    kind: type[Shape],
+) -> Dataset:
+    good, shapes = shapes_of(builds, kind)
     vectors = [build.parameters for build in good]
-    return make_dataset(procedure.space, vectors, meshes, cameras, settings.image_size, settings.workers)
+    return make_dataset(procedure.space, vectors, shapes, cameras, settings.image_size, settings.workers)
 
 
-def _schedule(settings: Settings, epochs: int) -> Schedule:
+def _schedule(settings: Settings, previous: Predictor | None) -> Schedule:
+    """How to train; weights are looked for here, so that a wrong path fails before anything is built."""
+    starts = settings.network == "vgg19" and not (previous and isinstance(previous.network, VGG19Network))
     return Schedule(
-        epochs=epochs,
+        epochs=settings.warm_epochs if previous else settings.epochs,
         batch=settings.batch,
         learning_rate=settings.learning_rate,
         weight_decay=settings.weight_decay,
         optimiser=settings.optimiser,
         camera_rate=settings.camera_rate if settings.cameras == "learned" else 0.0,
         network=settings.network,
-        weights=find_weights(settings.weights) if settings.network == "vgg19" else None,
+        weights=find_weights(settings.weights) if starts else None,
         device=settings.device,
         seed=settings.seed,
     )

@@ -26,4 +26,8 @@ Refine = Annotated[
     typer.Option(help="Search on from the prediction.  [dim]default: the preset's[/]"),
 ]
 Device = Annotated[Literal["auto", "cpu", "cuda", "mps"], typer.Option(help="What to train on.")]
+Up = Annotated[str, typer.Option(help="The axis of the files that points up: x, y, z, -x, -y, -z.")]
+Front = Annotated[
+    str | None, typer.Option(help="The axis that points to the front.  [dim]default: z, or -y where up is z[/]")
+]
 Workers = Annotated[int | None, typer.Option(min=1, help="Processes and threads.  [dim]default: all cores[/]")]

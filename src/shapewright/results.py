@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
-from shapewright.shapes import Mesh
+from shapewright.shapes import Mesh, Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,11 +18,11 @@ class Result:
     """What was found for one reference.
 
     parameters: in the procedure's units, None when nothing could be built. active: names of those that matter.
-    at_limit: scalars that rest on an end of their Range. replica: the mesh the procedure builds, in its own units.
-    distance: normalised light-field distance, iou: of silhouettes, chamfer: in units of the largest extent, depth:
-    difference of depth pictures; NaN without a replica. group: index into the iteration's groups, None for a
-    compatible reference. reference: the normalised mesh, None in an iteration that was loaded. error: why there is no
-    replica.
+    at_limit: scalars that rest on an end of their Range. replica: the shape the procedure builds, in its own units.
+    distance: by the iteration's metric, iou: of silhouettes, chamfer: in units of the largest extent, depth: difference
+    of depth pictures; NaN without a replica, and the last two also for drawings. group: index into the iteration's
+    groups, None for a compatible reference. reference: the normalised shape, None in an iteration that was loaded.
+    error: why there is no replica.
     """
 
     name: str
@@ -30,13 +30,13 @@ class Result:
     parameters: Parameters | None
     active: tuple[str, ...]
     at_limit: tuple[str, ...]
-    replica: Mesh | None
+    replica: Shape | None
     distance: float
     iou: float
     chamfer: float
     compatible: bool
     group: int | None
-    reference: Mesh | None
+    reference: Shape | None
     error: str | None = None
     depth: float = math.nan
 
@@ -64,13 +64,13 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
         "compatible": result.compatible,
         "group": result.group,
         "error": result.error,
-        "replica": f"replicas/{slug}.glb" if result.replica is not None else None,
-        "triangles": len(result.reference.faces) if result.reference is not None else None,
+        "replica": replica_path(result.replica, slug),
+        "triangles": len(result.reference.faces) if isinstance(result.reference, Mesh) else None,
     }
 
 
-def from_record(entry: Mapping[str, Any], replica: Mesh | None) -> Result:
-    """The inverse of ``to_record``, but for the reference's mesh."""
+def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
+    """The inverse of ``to_record``, but for the reference's shape."""
     distance, iou, chamfer, depth = (
         math.nan if entry.get(key) is None else entry[key] for key in ("distance", "iou", "chamfer", "depth")
     )
@@ -90,6 +90,11 @@ def from_record(entry: Mapping[str, Any], replica: Mesh | None) -> Result:
         error=entry["error"],
         depth=depth,
     )
+
+
+def replica_path(replica: Shape | None, slug: str) -> str | None:
+    """Where a run keeps a replica, GLB or SVG."""
+    return f"replicas/{slug}.{'glb' if isinstance(replica, Mesh) else 'svg'}" if replica else None
 
 
 def file_names(names: tuple[str, ...]) -> dict[str, str]:

@@ -22,13 +22,20 @@ class Settings:
     warm_epochs: training of a network that goes on from an earlier one. rounds: of adaptive sampling, each with
     round_samples more samples around what was found for the references and warm_epochs more of training.
 
-    refine: how long to search for better parameters from the predicted ones, by the judge's measure.
+    facing: "given" takes references as they are, "found" turns each about the up axis by the quarter turns at which the
+    procedure fits it best.
 
-    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18). metric: decides
-    instead, if given: bias and weights of distance, IoU and depth difference, learned from marks. cut: groups are
-    merged up to this share of the largest distance between incompatible references (paper: 0.4), or up to this
-    distance itself when cut_absolute. align: "free" compares in all rotations as the paper does, "upright" about the
-    up axis only.
+    refine: how long to search for better parameters from the predicted ones, by the judge's measure; refine_seconds:
+    what building shapes for that may cost for each reference, on one core (ten times as much when thorough). Procedures
+    that take less than 10 ms a shape never reach it.
+
+    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18); fidelity: of a
+    drawing instead the least visual information fidelity (VIF), above which the paper counts from 0.05. metric: decides
+    in place of the threshold, if given: bias and weights of distance, IoU and depth difference, learned from marks.
+
+    cut: groups are merged up to this share of the largest distance between incompatible references (paper: 0.4), or up
+    to this distance itself when cut_absolute. align: "free" compares in all rotations as the paper does, "upright"
+    about the up axis only.
 
     shape_seconds, shape_memory_mb: what building one shape may cost. workers: processes and threads; all cores by
     default.
@@ -52,9 +59,12 @@ class Settings:
     warm_epochs: int = 6
     rounds: int = 0
     round_samples: int = 1000
+    facing: Literal["given", "found"] = "given"
     refine: Literal["off", "quick", "thorough"] = "quick"
+    refine_seconds: float = 2.0
     threshold: float = 0.18
     metric: tuple[float, float, float, float] | None = None
+    fidelity: float = 0.05
     cut: float = 0.4
     cut_absolute: bool = False
     align: Literal["free", "upright"] = "free"
@@ -63,9 +73,20 @@ class Settings:
     workers: int | None = None
 
     def __post_init__(self) -> None:
-        for name in ("samples", "epochs", "batch", "learning_rate", "threshold", "shape_seconds", "shape_memory_mb"):
+        for name in (
+            "samples",
+            "epochs",
+            "batch",
+            "learning_rate",
+            "refine_seconds",
+            "threshold",
+            "shape_seconds",
+            "shape_memory_mb",
+        ):
             if not getattr(self, name) > 0:
                 raise ValueError(f"{name}={getattr(self, name)} must be greater than 0")
+        if not 0.0 < self.fidelity < 1.0:
+            raise ValueError(f"fidelity={self.fidelity} must lie between 0 and 1")
         if self.batch < 8:
             raise ValueError(f"batch={self.batch}: a training step needs at least 8 samples")
         if self.samples < 20:

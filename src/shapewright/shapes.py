@@ -170,6 +170,15 @@ def concatenate(meshes: list[Mesh]) -> Mesh:
     )
 
 
+def shape_digest(shape: Shape) -> str:
+    """A key for the geometry alone, of a mesh or a drawing."""
+    import hashlib
+
+    if isinstance(shape, Mesh):
+        return mesh_digest(shape)
+    return hashlib.blake2b(shape.geometry.wkb, digest_size=16).hexdigest()
+
+
 def mesh_digest(mesh: Mesh) -> str:
     """A key for the geometry alone: equal vertices and faces have equal digests."""
     import hashlib

@@ -66,7 +66,8 @@ class Workers:
             self._run(parameters, [probes[i : i + 1] for i in range(len(probes))], results, None)
             done = max(done, probes.stop)
             _give_up_if_broken([result for result in results[:done] if result is not None], count)
-        rest = [range(i, min(i + SLICE, len(parameters))) for i in range(done, len(parameters), SLICE)]
+        size = max(1, min(SLICE, (len(parameters) - done) // (4 * self.count)))
+        rest = [range(i, min(i + size, len(parameters))) for i in range(done, len(parameters), size)]
         self._run(parameters, rest, results, progress)
         return [result for result in results if result is not None]
 
@@ -104,7 +105,7 @@ class Workers:
         try:
             while any(thread.is_alive() for thread in threads):
                 for thread in threads:
-                    thread.join(0.05)
+                    thread.join(0.02)
                 if progress:
                     progress(sum(result is not None for result in results), len(results))
         except BaseException:

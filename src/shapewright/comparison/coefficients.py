@@ -23,6 +23,8 @@ _ART_LEVELS = (  # of 4 bits: the largest index whose level is below the value
     *(0.038508176, 0.045926586, 0.054490513, 0.064619488, 0.077016351, 0.092998687, 0.115524524, 0.154032694),
 )
 
+_ART_END = 2.0 * _ART_LEVELS[-1] - _ART_LEVELS[-2]
+
 
 def coefficients(images: Bytes) -> Floats:
     """Coefficients (V, 47) of the silhouettes (V, 256, 256) of one light field, which share one scale.
@@ -47,8 +49,16 @@ def quantise(values: Floats, bits: int = 4) -> Bytes:
     """
     if bits not in (4, 8):
         raise ValueError(f"ART coefficients have 4 or 8 bits, not {bits}")
-    levels = np.minimum(values * 256.0, 255.0)
-    levels[..., ART:-2] = np.minimum(values[..., ART:-2] * 512.0, 255.0)
+    whole = np.minimum(values * 256.0, 255.0)
+    whole[..., ART:-2] = np.minimum(values[..., ART:-2] * 512.0, 255.0)
     if bits == 4:
-        levels[..., :ART] = np.maximum(np.searchsorted(_ART_LEVELS, values[..., :ART]) - 1, 0)
-    return levels.astype(np.uint8)
+        whole[..., :ART] = np.maximum(np.searchsorted(_ART_LEVELS, values[..., :ART]) - 1, 0)
+    return whole.astype(np.uint8)
+
+
+def levels(values: Floats) -> Floats:
+    """Coefficients (..., 47) on the scale of ``quantise`` with ART of 4 bits, but not rounded down."""
+    scaled = values * 256.0
+    scaled[..., ART:-2] *= 2.0
+    scaled[..., :ART] = np.interp(values[..., :ART], (*_ART_LEVELS, _ART_END), np.arange(len(_ART_LEVELS) + 1))
+    return scaled

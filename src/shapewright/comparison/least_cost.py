@@ -22,13 +22,14 @@ Weighted = NDArray[Any]
 Ints = NDArray[np.int64]
 
 _SILHOUETTES = VIEWS * LIGHT_FIELDS
-_WEIGHTS = np.repeat([1, 2, 2, 1], [ART, FOURIER, 1, 1])
+WEIGHTS = np.repeat([1, 2, 2, 1], [ART, FOURIER, 1, 1])
+"""Of each of the 47 coefficients."""
 _MOST = int(np.iinfo(np.int32).max)
 
 
 def weighted(coefficients: NDArray[np.uint8], bits: int) -> Weighted:
     """Quantised coefficients (..., 47) times their weights; bits: those of ART, 4 or 8."""
-    return np.asarray(coefficients * _WEIGHTS.astype(np.uint16 if bits == 4 else np.int32))
+    return np.asarray(coefficients * WEIGHTS.astype(np.uint16 if bits == 4 else np.int32))
 
 
 def by_coefficient(coefficients: Weighted) -> Weighted:

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 from scipy.special import eval_jacobi
 
 from shapewright.comparison.coefficients import coefficients
 from shapewright.comparison.contours import FOURIER
 from shapewright.comparison.regions import ART
+from shapewright.rendering.ink import fill, outlines
 from shapewright.rendering.silhouettes_raster import SIZE
 from shapewright.shapes import Drawing
 
@@ -74,19 +74,10 @@ def distances(
 
 def silhouette(drawing: Drawing) -> Bytes:
     """The normalised drawing in [-1, 1] x [-1, 1]: (256, 256), 1 where it covers a pixel's centre, bottom row first."""
-    regions = shapely.get_parts(shapely.unary_union(drawing.normalised().geometry))
-    rings = shapely.get_rings(regions[shapely.area(regions) > 0.0])
-    corners, ring = shapely.get_coordinates(rings, return_index=True)
-    corners = (corners + 1.0) * (SIZE / 2) - 0.5
-    edges = np.flatnonzero(ring[1:] == ring[:-1])
-    start, end = corners[edges], corners[edges + 1]
-    rows = np.arange(SIZE)[:, None]
-    row, edge = np.nonzero((rows >= np.minimum(start, end)[:, 1]) & (rows < np.maximum(start, end)[:, 1]))
-    run, rise = (end - start)[edge].T
-    column = np.ceil(start[edge, 0] + (row - start[edge, 1]) * run / rise).astype(int)
-    crossings = np.zeros((SIZE, SIZE), dtype=np.uint8)
-    np.bitwise_xor.at(crossings, (row, column), 1)
-    return np.asarray(np.bitwise_xor.accumulate(crossings, axis=1))
+    corners, rings = outlines(drawing.normalised())
+    image = np.empty((SIZE, SIZE), dtype=np.uint8)
+    fill((corners + 1.0) * (SIZE / 2) - 0.5, rings, image)
+    return image
 
 
 def _zernike(image: Bytes) -> NDArray[np.complex128]:

@@ -12,10 +12,10 @@ VIF_THRESHOLD = 0.05
 
 
 def intersection_over_union(a: Drawing, b: Drawing) -> float:
-    """Area in common over area of both, each drawing normalised: 0 to 1."""
-    ours, theirs = silhouette(a) > 0, silhouette(b) > 0
-    union = int((ours | theirs).sum())
-    return float((ours & theirs).sum() / union) if union else 1.0
+    """Area in common over area of both, each drawing normalised: 0 to 1. It is exact, no matter how thin the lines."""
+    ours, theirs = a.normalised().geometry, b.normalised().geometry
+    common = float(ours.intersection(theirs).area)
+    return common / (ours.area + theirs.area - common)
 
 
 def visual_information_fidelity(reference: Drawing, replica: Drawing) -> float:

@@ -19,7 +19,7 @@ from shapewright.feedback.hypotheses import Hypothesis, hypotheses
 from shapewright.feedback.proposals import Misfit, Proposal, Ranges, narrowed, proposals
 from shapewright.feedback.trial import GLANCE, LOOK, SEARCH, Trial, changed, tried, unchanged
 from shapewright.judge import Judge
-from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.procedure import Procedure, ProcedureError
 from shapewright.progress import Stages
 from shapewright.shapes import Mesh
@@ -144,13 +144,13 @@ def _glanced(
 ) -> list[Proposal]:
     """The proposals that bring most to a few of the misfits they are for, best first."""
     scores: list[tuple[float, int, Proposal]] = []
-    spent = 0
+    spent, each = 0, GLANCE.evaluations(_scalars(procedure.space))
     for number, idea in enumerate(ideas):
         members = [misfit for misfit in misfits if misfit.row in idea.starts]
         some = [members[i] for i in sorted({int(i) for i in np.linspace(0, len(members) - 1, _GLANCES)})]
-        if spent + len(some) * GLANCE.evaluations > 0.4 * EVALUATIONS:
+        if spent + len(some) * each > 0.4 * EVALUATIONS:
             break
-        spent += len(some) * GLANCE.evaluations
+        spent += len(some) * each
         try:
             with changed(idea.write(idea.ranges), procedure, judge) as new:
                 if not unchanged(new, known):
@@ -161,6 +161,10 @@ def _glanced(
         share = float(np.mean([_nearness(trial, m.row) for m in some])) if some else 0.0
         scores.append((-share * len(members), number, idea))
     return [idea for _, _, idea in sorted(scores, key=lambda score: score[:2])]
+
+
+def _scalars(space: ParameterSpace) -> int:
+    return sum(isinstance(parameter, Scalar) for parameter in space)
 
 
 def _nearness(trial: Trial, row: int) -> float:
@@ -178,7 +182,7 @@ def _confirmed(
     for idea in ideas[:_CONFIRMED]:
         first = [m for m in misfits if m.row in idea.starts]
         others = [m for m in misfits if m.row not in idea.starts]
-        affordable = max(len(first), int(left / _CONFIRMED / LOOK.evaluations))
+        affordable = max(len(first), int(left / _CONFIRMED / LOOK.evaluations(_scalars(procedure.space))))
         some = (first + others)[:affordable]
         starts = {m.row: idea.start(m) for m in some}
         with changed(idea.write(idea.ranges), procedure, judge) as new:

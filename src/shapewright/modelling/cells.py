@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from shapewright.shapes import Floats, Ints
-from shapewright.slivers import SLIVER
+from shapewright.slivers import SLIVER, has_slivers, without_slivers
 from shapewright.soundness import topology
 
 _MOST_CELLS = 500_000
@@ -37,7 +37,10 @@ def unite(low: Floats, high: Floats, owners: Ints) -> tuple[Floats, Ints, Ints] 
     if not (closed and manifold):
         return None
     places = np.unravel_index(used, tuple(shape))
-    return np.stack([line[place] for line, place in zip(lines, places, strict=True)], axis=1), faces, face_owners
+    points = np.stack([line[place] for line, place in zip(lines, places, strict=True)], axis=1)
+    if has_slivers(points[faces], least):  # on a ledge as narrow as a thousandth of its length
+        return without_slivers(points, faces, face_owners, least)
+    return points, faces, face_owners
 
 
 def _distinct(values: Floats, least: float) -> Floats:

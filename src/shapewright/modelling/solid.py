@@ -14,7 +14,7 @@ from shapewright.modelling.alignment import aligned, manifold_of
 from shapewright.modelling.arguments import ORIGIN, Axis, Direction, Vector
 from shapewright.modelling.curves import TOLERANCE
 from shapewright.shapes import Floats, Ints, Mesh
-from shapewright.slivers import SLIVER, has_slivers, without_slivers
+from shapewright.slivers import SLIVER, has_slivers, heights, without_slivers
 
 if TYPE_CHECKING:
     from shapewright.modelling.deformation import Deformation
@@ -178,26 +178,36 @@ class Solid:
 
         Edges and heights of triangles below a millionth of the largest extent are removed.
         """
-        manifold = self.checked().manifold
-        if manifold.is_empty():
+        if self.checked().manifold.is_empty():
             return Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
-        low_x, low_y, low_z, high_x, high_y, high_z = manifold.bounding_box()
-        least = SLIVER * max(high_x - low_x, high_y - low_y, high_z - low_z)
+        mesh, least = self._triangles(self.manifold), SLIVER * float(np.ptp(self.bounds, axis=0).max())
+        if not has_slivers(mesh.triangles, least):
+            return mesh
+        mesh = self._mended(least)  # booleans of flush faces leave triangles without area
+        if not (heights(mesh.triangles) < least).any():
+            return mesh
+        # Those that stay lie between ribbons hardly higher than themselves, which have to go with them.
+        coarser = (self._mended(times * least) for times in (10.0, 100.0))
+        return next((mended for mended in coarser if mended.soundness().sound), mesh)
+
+    def _mended(self, least: float) -> Mesh:
+        """The mesh without edges, and as far as possible without triangles' heights, below ``least``."""
+        mesh = self._triangles(self.manifold.simplify(least))
+        labels = np.zeros(len(mesh.faces), dtype=np.int64) if mesh.face_labels is None else mesh.face_labels
+        vertices, faces, labels = without_slivers(mesh.vertices, mesh.faces, labels, least)
+        return Mesh(vertices, faces, labels if mesh.label_names else None, mesh.label_names)
+
+    def _triangles(self, manifold: Manifold) -> Mesh:
+        """A manifold's triangles, with the labels of this solid."""
         mesh = manifold.to_mesh64()
-        vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
-        thin = has_slivers(vertices[faces], least)  # booleans of flush faces leave triangles without area
-        if thin:
-            mesh = self.simplified().manifold.to_mesh64()
-            vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
         lengths = np.diff(mesh.run_index) // 3
         runs = [self.labels.get(original) for original in mesh.run_original_id]
         present = {name for name, length in zip(runs, lengths, strict=True) if length}
         names = tuple(dict.fromkeys(name for name in self.labels.values() if name in present))
         index: dict[str | None, int] = {name: i for i, name in enumerate(names)}
         owners = np.repeat(np.array([index.get(name, -1) for name in runs], dtype=np.int64), lengths)
-        if thin:
-            vertices, faces, owners = without_slivers(vertices, faces, owners, least)
-        return Mesh(vertices, faces, owners, names) if names else Mesh(vertices, faces)
+        vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
+        return Mesh(vertices, faces, owners if names else None, names)
 
     def checked(self) -> Solid:
         """The solid itself. Raises ValueError when manifold3d could not make it."""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import Camera, placed, positions, within_reach
 from shapewright.rendering.raster import render
-from shapewright.shapes import Mesh
+from shapewright.shapes import Shape
 
 Floats = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ STEP = 0.02
 
 
 def camera_gradient(
-    meshes: Sequence[Mesh],
+    shapes: Sequence[Shape],
     cameras: Sequence[Camera],
     by_pixel: NDArray[np.float32],
     step: float = STEP,
@@ -39,8 +39,8 @@ def camera_gradient(
     count, size = len(cameras), by_pixel.shape[-1]
     offsets = step * np.concatenate([np.eye(3), -np.eye(3)])
     moved = [camera for offset in offsets for camera in placed(cameras, positions(cameras) + offset)]
-    images = render(meshes, moved, size, supersample, threads)
-    ahead, behind = np.split(images.reshape(len(meshes), 6, count, 2, size, size).astype(np.float32), 2, axis=1)
+    images = render(shapes, moved, size, supersample, threads)
+    ahead, behind = np.split(images.reshape(len(shapes), 6, count, 2, size, size).astype(np.float32), 2, axis=1)
     slopes = (ahead - behind) / np.float32(2.0 * step * 255.0)
     gradient: Floats = np.einsum("nacxyz,ncxyz->ca", slopes, by_pixel, optimize=True).astype(np.float64)
     return gradient

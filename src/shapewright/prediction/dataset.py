@@ -13,7 +13,7 @@ from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.procedure import ProcedureError
 from shapewright.rendering.cameras import THREE_VIEWS, Camera
 from shapewright.rendering.raster import render
-from shapewright.shapes import Mesh
+from shapewright.shapes import Mesh, Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,18 +21,24 @@ class Dataset:
     """Shapes, their pictures, and the parameters that built them.
 
     parameters: N vectors in the procedure's units. targets: (N, P) float32, encoded. active: (N, P) bool, whether the
-    parameter matters there. images: (N, C, 2, S, S) uint8. meshes: N, normalised. cameras: C, that took the images.
+    parameter matters there. images: (N, C, 2, S, S) uint8. shapes: N, normalised, all meshes or all
+    drawings. cameras: C, that took the images.
     """
 
     parameters: list[Parameters]
     targets: NDArray[np.float32]
     active: NDArray[np.bool_]
     images: NDArray[np.uint8]
-    meshes: list[Mesh]
+    shapes: list[Shape]
     cameras: tuple[Camera, ...]
 
     def __len__(self) -> int:
         return len(self.parameters)
+
+    @property
+    def kind(self) -> type[Shape]:
+        """Mesh or Drawing."""
+        return type(self.shapes[0])
 
     @property
     def size(self) -> int:
@@ -46,40 +52,50 @@ class Dataset:
             targets=self.targets[indices],
             active=self.active[indices],
             images=self.images[indices],
-            meshes=[self.meshes[i] for i in indices],
+            shapes=[self.shapes[i] for i in indices],
         )
 
     def seen_by(self, cameras: Sequence[Camera], threads: int | None = None) -> Dataset:
         """The same shapes in pictures that other cameras take; itself when the cameras are the same."""
         if tuple(cameras) == self.cameras:
             return self
-        images = render(self.meshes, cameras, self.size, threads=threads)
+        images = render(self.shapes, cameras, self.size, threads=threads)
         return replace(self, images=images, cameras=tuple(cameras))
 
 
-def meshes_of(builds: Sequence[Build]) -> tuple[list[Build], list[Mesh]]:
-    """The builds that gave a mesh, and these meshes normalised. Raises ProcedureError when fewer than 10 did."""
-    good = [build for build in builds if isinstance(build.shape, Mesh)]
+def kind_of(builds: Sequence[Build]) -> type[Shape]:
+    """Mesh or Drawing: what the first build that did not fail gave."""
+    return next((type(build.shape) for build in builds if build.shape is not None), Mesh)
+
+
+def shapes_of(builds: Sequence[Build], kind: type[Shape] | None = None) -> tuple[list[Build], list[Shape]]:
+    """The builds that gave a shape of this kind, by default that of the first one, and these shapes normalised.
+
+    Raises ProcedureError when fewer than 10 did.
+    """
+    kind = kind or kind_of(builds)
+    good = [build for build in builds if isinstance(build.shape, kind)]
     if len(good) < min(10, len(builds)):
-        drawings = any(build.shape is not None and not isinstance(build.shape, Mesh) for build in builds)
-        why = "it builds drawings, and references are meshes" if drawings else describe_failures(builds)
+        built, wanted = ("drawings", "meshes") if kind is Mesh else ("meshes", "drawings")
+        other = any(build.shape is not None and not isinstance(build.shape, kind) for build in builds)
+        why = f"it builds {built}, and references are {wanted}" if other else describe_failures(builds)
         raise ProcedureError(f"only {len(good)} of {len(builds)} sampled shapes can be used: {why}")
-    return good, [build.shape.normalised() for build in good if isinstance(build.shape, Mesh)]
+    return good, [build.shape.normalised() for build in good if build.shape is not None]
 
 
 def make_dataset(
     space: ParameterSpace,
     parameters: Sequence[Parameters],
-    meshes: Sequence[Mesh],
+    shapes: Sequence[Shape],
     cameras: Sequence[Camera] = THREE_VIEWS,
     size: int = 64,
     threads: int | None = None,
 ) -> Dataset:
-    """Render normalised meshes from every camera and encode their parameters."""
+    """Render normalised shapes from every camera and encode their parameters."""
     active = np.array([[name in set(space.active(values)) for name in space.names] for values in parameters])
     targets = np.array([space.encode(values) for values in parameters], dtype=np.float32)
-    images = render(meshes, cameras, size, threads=threads)
-    return Dataset(list(parameters), targets, active, images, list(meshes), tuple(cameras))
+    images = render(shapes, cameras, size, threads=threads)
+    return Dataset(list(parameters), targets, active, images, list(shapes), tuple(cameras))
 
 
 def join(parts: Sequence[Dataset]) -> Dataset:
@@ -91,7 +107,7 @@ def join(parts: Sequence[Dataset]) -> Dataset:
         targets=np.concatenate([part.targets for part in parts]),
         active=np.concatenate([part.active for part in parts]),
         images=np.concatenate([part.images for part in parts]),
-        meshes=[mesh for part in parts for mesh in part.meshes],
+        shapes=[shape for part in parts for shape in part.shapes],
     )
 
 

@@ -18,9 +18,9 @@ from shapewright.prediction.evaluation import Inference, Metrics, infer
 from shapewright.prediction.network import CompactNetwork, make_network
 from shapewright.prediction.training import Epoch
 from shapewright.records import from_record, to_record
-from shapewright.rendering.cameras import Camera
+from shapewright.rendering.cameras import PAGE, Camera
 from shapewright.rendering.raster import render
-from shapewright.shapes import Mesh
+from shapewright.shapes import Drawing, Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,16 +65,22 @@ class Predictor:
         network.load_state_dict(record["state"])
         return cls(space, network.eval(), cameras, record["size"], record["metrics"], [], record["samples"])
 
-    def predict(self, shapes: Sequence[Mesh]) -> list[Parameters]:
-        """The parameters for each mesh, which need not be normalised."""
+    def predict(self, shapes: Sequence[Shape]) -> list[Parameters]:
+        """The parameters for each shape, which need not be normalised."""
         return self.decode(self.infer(shapes))
 
-    def infer(self, shapes: Sequence[Mesh]) -> list[NDArray[np.float32]]:
+    def infer(self, shapes: Sequence[Shape]) -> list[NDArray[np.float32]]:
         """For each parameter (N,) encoded values of a scalar, or (N, classes) probabilities."""
         return self.infer_with_spread(shapes).values
 
-    def infer_with_spread(self, shapes: Sequence[Mesh]) -> Inference:
-        """What ``infer`` gives, and how far off each scalar may be."""
+    def infer_with_spread(self, shapes: Sequence[Shape]) -> Inference:
+        """What ``infer`` gives, and how far off each scalar may be.
+
+        Raises ValueError for meshes where it has learned from drawings, and the other way round.
+        """
+        drawn = self.cameras == (PAGE,)
+        if any(isinstance(shape, Drawing) != drawn for shape in shapes):
+            raise ValueError(f"this predictor has learned from {'drawings' if drawn else 'meshes'}; give it such")
         images = render([shape.normalised() for shape in shapes], self.cameras, self.size, threads=self.threads)
         with torch_threads(self.threads):
             return infer(self.network, self.space, images)

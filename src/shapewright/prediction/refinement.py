@@ -1,12 +1,13 @@
 """Refinement: a search on the procedure itself, from the prediction, by the measure that judges.
 
-Successive halving over the likeliest combinations of discrete choices, and an evolution strategy over the scalars of
-those that remain. All references advance together, so that shapes are built and measured in large batches.
+The likeliest combinations of discrete choices are tried; the scalars of the best are moved by Gauss-Newton steps on
+what still differs from the reference; references that end just short of compatible are explored further, at random as
+well. All references advance together, so that shapes are built and measured in large batches.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,42 +15,72 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
-from shapewright.shapes import Mesh
+from shapewright.prediction.descent import bounded_step, learn_slope
+from shapewright.shapes import Shape
 
 Floats = NDArray[np.float64]
-Measure = Callable[[Sequence[tuple[int, Mesh]]], Sequence[float]]
-"""Costs of replicas, each given with the index of its reference; lower is better."""
+Measure = Callable[[Sequence[tuple[int, Shape]]], Sequence[Floats | None]]
+"""How replicas, each given with the index of its reference, differ from it: vectors (K,) whose sum of absolute values
+is the cost; None where it cannot be told."""
+
+
+@dataclass(frozen=True)
+class Round:
+    """One round of the search: how many combinations of choices take part, and what is tried for each.
+
+    A combination is first built as it is, then once with each scalar moved a little; only from its third round on are
+    there ``steps`` along the model of its residuals, and ``strays``, random points around its best. near: only for
+    references whose cost is above the goal but at most so many times it, and only while it is.
+    """
+
+    combinations: int
+    steps: int = 2
+    strays: int = 0
+    near: float | None = None
 
 
 @dataclass(frozen=True)
 class Budget:
-    """How long to search. rungs: of each round, how many combinations it tries and how many shapes of each."""
+    """How long to search."""
 
-    rungs: tuple[tuple[int, int], ...]
+    rounds: tuple[Round, ...]
 
-    @property
-    def evaluations(self) -> int:
-        """Shapes built for each reference, at most."""
-        return sum(arms * points for arms, points in self.rungs)
+    def evaluations(self, scalars: int) -> int:
+        """Shapes built for each reference, at most, where so many scalars are free."""
+        return int(np.sum(self._spent(scalars)))
 
-    def within(self, evaluations: float) -> Budget:
-        """The first rounds that fit in so many shapes, at least one."""
-        spent = np.cumsum([arms * points for arms, points in self.rungs])
-        return Budget(self.rungs[: max(1, int((spent <= evaluations).sum()))])
+    def within(self, evaluations: float, scalars: int) -> Budget:
+        """The first rounds that fit in so many shapes, at least one combination of one."""
+        fit = int((np.cumsum(self._spent(scalars)) <= evaluations).sum())
+        return Budget(self.rounds[:fit] or (Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
+
+    def _spent(self, scalars: int) -> list[int]:
+        each = [1, scalars, *(r.steps + r.strays for r in self.rounds[2:])]
+        return [r.combinations * points for r, points in zip(self.rounds, each, strict=False)]
 
 
-QUICK = Budget(((8, 1), (3, 4), (2, 6), *((1, 8),) * 4))
-THOROUGH = Budget(((24, 2), (8, 8), (4, 16), (2, 16), (2, 16), *((1, 16),) * 24))
-_SPREAD = 0.08
-_SHRINK, _GROW = 0.7, 1.3
+QUICK = Budget(
+    (Round(8), Round(3), Round(2, 2, 2), *(Round(1, 2, 3),) * 2, *(Round(1, 2, 4, near=1.4),) * 12),
+)
+THOROUGH = Budget((Round(24), Round(12), *(Round(8, 2, 4),) * 3, *(Round(4, 2, 6),) * 6, *(Round(2, 2, 8),) * 20))
+_REACH, _FARTHEST = 0.15, 0.3
+_SPREAD = 0.1
+_PROBE = 0.04
+_FLOORS = (20.0, 1000.0)
+_LOCAL = 0.1
+"""How far a point may lie from the best one for the linear model to learn from it."""
 
 
 @dataclass(eq=False)
 class _Arm:
-    """One combination of discrete values: the best scalars found for it, and the spread of the next ones."""
+    """One combination of discrete values: the best scalars found for it, and a linear model around them."""
 
     centre: Floats
+    known: bool = False
     cost: float = np.inf
+    residual: Floats | None = None
+    slopes: Floats | None = None
+    reach: float = _REACH
     spread: float = _SPREAD
 
 
@@ -59,9 +90,25 @@ class _Search:
 
     arms: list[_Arm]
     rng: np.random.Generator
-    limits: tuple[Floats, Floats]
+    low: Floats
+    high: Floats
     best: Parameters | None = None
     cost: float = field(default=np.inf)
+
+    def worth(self, near: float | None, goal: float | None) -> bool:
+        """Whether a round for references near the goal is for this one; not where an earlier search ended already."""
+        if near is None:
+            return True
+        return goal is not None and goal < self.cost <= near * goal and not self.arms[0].known
+
+
+@dataclass(frozen=True, eq=False)
+class _Trial:
+    """A point to build: for which reference and which arm."""
+
+    reference: int
+    arm: _Arm
+    point: Floats
 
 
 def refine(
@@ -72,6 +119,7 @@ def refine(
     budget: Budget = QUICK,
     seed: int = 0,
     known: Sequence[Parameters | None] | None = None,
+    goal: float | None = None,
     progress: Callable[[int, int], None] | None = None,
     within: tuple[Floats, Floats] | None = None,
     spread: float = _SPREAD,
@@ -79,39 +127,35 @@ def refine(
 ) -> list[Parameters]:
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
-    inferred: per parameter (N,) encoded scalars or (N, classes) probabilities, as the predictor gives. known:
-    parameters to start from as well, such as those of the previous iteration. within: the least and the greatest
-    encoded scalars of each reference, (N, P), the whole space by default. spread: of the first steps, encoded. enough:
-    a cost at which the search for a reference ends. The cost never rises above that of the prediction. A reference's
-    result does not depend on the other references.
+    inferred: for each parameter (N,) encoded scalars or (N, classes) probabilities, as ``Predictor.infer`` gives.
+    known: for each reference parameters to start from as well, such as those of the previous iteration. goal: the cost
+    up to which a reference counts as compatible; without it no round is spent on those that are near. within: the least
+    and the greatest encoded scalars of each reference, (N, P), the whole space by default. spread: of the first random
+    points, encoded. enough: a cost at which the search for a reference ends. The cost never rises above that of the
+    prediction. A reference's result does not depend on the other references.
     """
-    low, high = within or (np.zeros((1, len(space))), np.ones((1, len(space))))
     count = len(inferred[0])
-    widest = max(arms for arms, _ in budget.rungs)
+    widest = budget.rounds[0].combinations
+    low, high = within or (np.zeros((count, len(space))), np.ones((count, len(space))))
     searches = []
     for i in range(count):
-        starts = likeliest(space, [column[i] for column in inferred], widest)
+        arms = [_Arm(centre, spread=spread) for centre in likeliest(space, [column[i] for column in inferred], widest)]
         if known and (given := known[i]) is not None:
-            starts = [*starts[: widest - 1], space.encode(given)]
-        limits = (low[min(i, len(low) - 1)], high[min(i, len(high) - 1)])
-        arms_of = [_Arm(centre, spread=spread) for centre in starts]
-        searches.append(_Search(arms_of, np.random.default_rng([seed, i]), limits))
-    scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
-    for number, (arms, points) in enumerate(budget.rungs):
-        asked: list[tuple[int, _Arm, Floats]] = []
-        for i, search in enumerate(searches):
-            if search.cost <= enough:
-                continue
-            search.arms = sorted(search.arms, key=lambda arm: arm.cost)[:arms]
-            for arm in search.arms:
-                proposed = _propose(space, arm, points, scalars, search)
-                asked += [(i, arm, point) for point in proposed]
-        vectors = [space.canonical(space.decode(point)) for _, _, point in asked]
-        costs = _costs(measure, [i for i, _, _ in asked], crew.build(vectors))
-        _learn(searches, asked, vectors, costs)
-        if progress:
-            progress(number + 1, len(budget.rungs))
+            arms = [*arms[: max(1, widest - 1)], _Arm(space.encode(given), known=True, spread=spread)]
+        searches.append(_Search(arms, np.random.default_rng([seed, i]), low[i], high[i]))
     fallback = [space.canonical(space.decode(search.arms[0].centre)) for search in searches]
+    for number, turn in enumerate(budget.rounds):
+        asked: list[_Trial] = []
+        for i, search in enumerate(searches):
+            search.arms.sort(key=lambda arm: arm.cost)
+            if search.cost > enough and search.worth(turn.near, goal):
+                for arm in search.arms[: turn.combinations]:
+                    asked += [_Trial(i, arm, point) for point in _propose(space, arm, turn, search)]
+        vectors = [space.canonical(space.decode(trial.point)) for trial in asked]
+        residuals = _residuals(measure, [trial.reference for trial in asked], crew.build(vectors))
+        _learn(searches, asked, vectors, residuals)
+        if progress:
+            progress(number + 1, len(budget.rounds))
     return [search.best or predicted for search, predicted in zip(searches, fallback, strict=True)]
 
 
@@ -135,40 +179,79 @@ def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], co
     return list(unique.values())[:count]
 
 
-def _propose(
-    space: ParameterSpace, arm: _Arm, points: int, scalars: NDArray[np.bool_], search: _Search
-) -> list[Floats]:
-    """The arm's centre when its cost is not known yet, and points around it, inside the limits."""
+def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search) -> Iterator[Floats]:
+    """Points inside the limits: the arm's centre, then one for each free scalar, then steps and strays."""
+    if arm.residual is None:
+        yield arm.centre
+        return
     active = set(space.active(space.decode(arm.centre)))
-    free = scalars & np.array([name in active for name in space.names])
-    steps = search.rng.standard_normal((points, len(arm.centre))) * arm.spread * free
-    proposed = [np.where(scalars, np.clip(arm.centre + step, *search.limits), arm.centre) for step in steps]
-    if np.isinf(arm.cost):
-        proposed[0] = arm.centre
-    return proposed if free.any() else proposed[:1]
+    free = np.array([isinstance(parameter, Scalar) and parameter.name in active for parameter in space])
+    if not free.any():
+        return
+    if arm.slopes is None:
+        for p in np.flatnonzero(free):
+            point = arm.centre.copy()
+            point[p] += _PROBE if point[p] + _PROBE <= search.high[p] else -_PROBE
+            yield point
+        return
+    for k in range(turn.steps):
+        reach = arm.reach * 0.4**k
+        low = np.where(free, np.clip(search.low - arm.centre, -reach, 0.0), 0.0)
+        high = np.where(free, np.clip(search.high - arm.centre, 0.0, reach), 0.0)
+        yield arm.centre + bounded_step(arm.slopes, arm.residual, low, high, _FLOORS[k % len(_FLOORS)])
+    for _ in range(turn.strays):
+        stray = search.rng.standard_normal(len(free)) * arm.spread
+        yield np.where(free, np.clip(arm.centre + stray, search.low, search.high), arm.centre)
 
 
-def _costs(measure: Measure, references: Sequence[int], builds: Sequence[Build]) -> Floats:
-    costs = np.full(len(builds), np.inf)
-    built = [k for k, build in enumerate(builds) if isinstance(build.shape, Mesh)]
-    pairs = [(references[k], shape) for k in built if isinstance(shape := builds[k].shape, Mesh)]
-    costs[built] = measure(pairs)
-    return costs
+def _residuals(measure: Measure, references: Sequence[int], builds: Sequence[Build]) -> list[Floats | None]:
+    built = [k for k, build in enumerate(builds) if build.shape is not None]
+    found = measure([(references[k], shape) for k in built if (shape := builds[k].shape) is not None])
+    residuals: list[Floats | None] = [None] * len(builds)
+    for k, residual in zip(built, found, strict=True):
+        residuals[k] = residual
+    return residuals
 
 
 def _learn(
     searches: Sequence[_Search],
-    asked: Sequence[tuple[int, _Arm, Floats]],
+    asked: Sequence[_Trial],
     vectors: Sequence[Parameters],
-    costs: Floats,
+    residuals: Sequence[Floats | None],
 ) -> None:
-    """Move each arm to the best point found, and let its spread follow its success."""
-    before = {id(arm): arm.cost for _, arm, _ in asked}
-    for (i, arm, point), vector, cost in zip(asked, vectors, costs, strict=True):
-        if cost < arm.cost:
-            arm.centre, arm.cost = point, float(cost)
-        if cost < searches[i].cost:
-            searches[i].best, searches[i].cost = vector, float(cost)
-    for arm in {id(arm): arm for _, arm, _ in asked}.values():
-        if np.isfinite(before[id(arm)]):
-            arm.spread *= _GROW if arm.cost < before[id(arm)] else _SHRINK
+    """Keep the best of each reference, and move each arm to the best point found for it."""
+    measured: dict[int, tuple[_Arm, list[tuple[float, Floats, Floats]]]] = {}
+    for trial, vector, residual in zip(asked, vectors, residuals, strict=True):
+        points = measured.setdefault(id(trial.arm), (trial.arm, []))[1]
+        if residual is None:
+            continue
+        cost = float(np.abs(residual).sum())
+        points.append((cost, trial.point, residual))
+        search = searches[trial.reference]
+        if cost < search.cost:
+            search.best, search.cost = vector, cost
+    for arm, points in measured.values():
+        searching = arm.slopes is not None
+        if arm.residual is not None:
+            _model(arm, points)
+        best = min(points, key=lambda found: found[0], default=None)
+        if best and best[0] < arm.cost:
+            if searching:
+                moved = float(np.abs(best[1] - arm.centre).max())
+                arm.reach = max(min(2.0 * moved, _FARTHEST), 0.5 * arm.reach)
+                arm.spread *= 1.3
+            arm.cost, arm.centre, arm.residual = best
+        elif searching:
+            arm.reach *= 0.4
+            arm.spread *= 0.75
+
+
+def _model(arm: _Arm, points: Sequence[tuple[float, Floats, Floats]]) -> None:
+    """Let the linear model learn from points near the centre, the nearest last."""
+    assert arm.residual is not None
+    if arm.slopes is None:
+        arm.slopes = np.zeros((len(arm.centre), len(arm.residual)))
+    steps = [(float(np.abs(point - arm.centre).max()), point, residual) for _, point, residual in points]
+    for length, point, residual in sorted(steps, key=lambda found: -found[0]):
+        if length <= _LOCAL:
+            learn_slope(arm.slopes, point - arm.centre, residual - arm.residual)

@@ -10,7 +10,6 @@ from shapewright.building import Build
 from shapewright.parameters import Parameter, Parameters, ParameterSpace, Value
 from shapewright.rendering.cameras import Camera
 from shapewright.rendering.raster import render
-from shapewright.shapes import Mesh
 
 ALL_AROUND = (Camera(35.0, 25.0), Camera(215.0, 25.0), Camera(125.0, -25.0), Camera(305.0, -25.0))
 SIZE = 128
@@ -53,9 +52,9 @@ def _levels(parameter: Parameter) -> Sequence[Value]:
 
 
 def _differ(one: Build, other: Build, threads: int | None) -> bool:
-    """Whether one is a mesh and the other is not, or both are and look different from somewhere."""
-    if not isinstance(one.shape, Mesh) or not isinstance(other.shape, Mesh):
-        return isinstance(one.shape, Mesh) != isinstance(other.shape, Mesh)
-    meshes = [one.shape.normalised(), other.shape.normalised()]
-    before, after = render(meshes, ALL_AROUND, SIZE, threads=threads).astype(int)
+    """Whether one could be built and the other could not, or both were and look different from somewhere."""
+    if one.shape is None or other.shape is None:
+        return one.shape is not other.shape
+    shapes = [one.shape.normalised(), other.shape.normalised()]
+    before, after = render(shapes, ALL_AROUND, SIZE, threads=threads).astype(int)
     return bool((np.abs(after - before) > _VISIBLE).any())

@@ -195,12 +195,12 @@ def _backward(
         return value.item(), None
     some = rows[:_CAMERA_ROWS]
     by_pixel = pictures.grad[: len(some)].cpu().numpy()
-    gradient = camera_gradient([data.meshes[i] for i in some], cameras, by_pixel, threads=threads)
+    gradient = camera_gradient([data.shapes[i] for i in some], cameras, by_pixel, threads=threads)
     return value.item(), gradient * (len(rows) / len(some))
 
 
 def _render(data: Dataset, rows: Rows, cameras: tuple[Camera, ...], threads: int) -> NDArray[np.uint8]:
-    return render([data.meshes[i] for i in rows], cameras, data.size, threads=threads)
+    return render([data.shapes[i] for i in rows], cameras, data.size, threads=threads)
 
 
 def _average_gradients(shards: list[nn.Module]) -> None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 from shapewright.conversion import as_shape
 from shapewright.references import files, sources
 from shapewright.references.errors import CollectionError, UnreadableError
-from shapewright.references.orientation import Orientation
-from shapewright.shapes import Floats, Mesh, Transform, mesh_digest
+from shapewright.references.orientation import QUARTER_TURNS, Orientation
+from shapewright.shapes import Drawing, Floats, Mesh, Shape, Transform, shape_digest
 
 _REASONS = 5
 
@@ -26,13 +26,13 @@ class Reference:
     """One shape to replicate.
 
     name: unique in its collection. path: its file, None for a shape made in memory.
-    shape: the mesh, Y up, front towards +Z, its bounding box centred and 1 at its largest.
+    shape: the mesh, Y up, front towards +Z, or the drawing; its bounding box centred and 1 at its largest.
     orientation, transform: what was done to it, in this order. notes: what of the file was left out.
     """
 
     name: str
     path: Path | None
-    shape: Mesh
+    shape: Shape
     transform: Transform
     orientation: Orientation = field(default_factory=Orientation)
     notes: tuple[str, ...] = ()
@@ -40,19 +40,35 @@ class Reference:
     @cached_property
     def digest(self) -> str:
         """A key for the normalised geometry."""
-        return mesh_digest(self.shape)
+        return shape_digest(self.shape)
 
     def to_original(self, points: ArrayLike) -> Floats:
-        """Points (..., 3) in the frame of ``shape``, back in the file's own units and axes."""
-        return self.orientation.invert(self.transform.invert(points))
+        """Points (..., 3), of a drawing (..., 2), in the frame of ``shape``, back in the file's own units and axes."""
+        original = self.transform.invert(points)
+        return self.orientation.invert(original) if isinstance(self.shape, Mesh) else original
+
+    def turned(self, quarters: int) -> Reference:
+        """The same mesh after so many quarter turns about the up axis, from the front towards the right."""
+        assert isinstance(self.shape, Mesh)
+        turn = QUARTER_TURNS[quarters % 4]
+        transform = Transform(tuple(turn @ self.transform.centre), self.transform.scale)
+        return replace(
+            self,
+            shape=self.shape.transformed(turn),
+            transform=transform,
+            orientation=self.orientation.turned(quarters),
+        )
 
     def __repr__(self) -> str:
-        return f"Reference({self.name!r}, {len(self.shape.faces)} faces)"
+        size = f"{len(self.shape.faces)} faces" if isinstance(self.shape, Mesh) else "drawing"
+        return f"Reference({self.name!r}, {size})"
 
 
 @dataclass(frozen=True, eq=False)
 class Collection:
     """The references to replicate, in natural order of their names: ``len``, iteration, ``refs["name"]``.
+
+    They are all meshes, or all drawings; CollectionError is raised for a mixture.
 
     skipped: the files that could not be read, with the reason. source: where the collection came from, in words.
     origins: absolute paths or patterns to load it from again, none for one made in memory; up, front: their axes.
@@ -65,6 +81,14 @@ class Collection:
     up: str = "y"
     front: str | None = None
 
+    def __post_init__(self) -> None:
+        drawings = [reference.name for reference in self if isinstance(reference.shape, Drawing)]
+        if 0 < len(drawings) < len(self):
+            raise CollectionError(
+                f"{len(self) - len(drawings)} meshes and {len(drawings)} drawings ({drawings[0]}, ...) in one "
+                "collection; load one kind, for example with a pattern such as '*.svg'"
+            )
+
     @classmethod
     def load(
         cls,
@@ -75,22 +99,22 @@ class Collection:
     ) -> Collection:
         """Read a collection from a folder, a glob pattern, a CSV manifest, a file, or a list of these.
 
-        Read are OBJ, PLY, STL, OFF, GLB, glTF and 3MF; ``sources.find`` says which files a source stands for and how
-        they are named. ``up`` and ``front`` are the axes of the files that point up and to the front of the shapes,
-        among x, y, z, -x, -y, -z; without ``front`` it is z, or -y where up is z or -z, as in Blender and CAD. A file
-        that cannot be read is listed in ``skipped`` with its reason. Raises CollectionError, which says what to do,
-        where there is nothing to load.
+        Read are OBJ, PLY, STL, OFF, GLB, glTF and 3MF, or drawings in PNG and SVG, dark on white;
+        ``sources.find`` says which files a source stands for and how they are named. ``up`` and ``front`` are the axes
+        of the mesh files that point up and to the front of the shapes, among x, y, z, -x, -y, -z; without ``front`` it
+        is z, or -y where up is z or -z, as in Blender and CAD. A file that cannot be read is listed in ``skipped`` with
+        its reason. Raises CollectionError, which says what to do, where there is nothing to load.
         """
         origins = [source] if isinstance(source, str | os.PathLike) else list(source)
         references: list[Reference] = []
         skipped: dict[Path, str] = {}
         for file in sources.find(origins, up, front):
             try:
-                mesh, notes = files.read(file.path)
+                shape, notes = files.read(file.path)
             except UnreadableError as error:
                 skipped[file.path] = str(error)
             else:
-                references.append(_normalised(file.name, file.path, mesh, file.orientation, notes))
+                references.append(_normalised(file.name, file.path, shape, file.orientation, notes))
         if not references:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
@@ -99,7 +123,7 @@ class Collection:
 
     @classmethod
     def of(cls, shapes: Mapping[str, Any], *, up: str = "y", front: str | None = None) -> Collection:
-        """A collection of named shapes in memory: Mesh, trimesh.Trimesh, (vertices, faces), or what procedures return.
+        """A collection of named shapes in memory: Mesh, Drawing, trimesh.Trimesh, or what else procedures return.
 
         ``up`` and ``front`` as for ``load``. Raises CollectionError for a shape that cannot be used.
         """
@@ -109,9 +133,18 @@ class Collection:
         references = [_in_memory(name, shapes[name], orientation) for name in sorted(shapes, key=sources.natural_key)]
         return cls(tuple(references))
 
+    def turned(self, quarters: Sequence[int]) -> Collection:
+        """The collection with every reference turned about the up axis: see ``Reference.turned``."""
+        return replace(self, references=tuple(r.turned(q) if q else r for r, q in zip(self, quarters, strict=True)))
+
     @cached_property
     def _by_name(self) -> dict[str, Reference]:
         return {reference.name: reference for reference in self.references}
+
+    @property
+    def kind(self) -> type[Shape]:
+        """Mesh or Drawing."""
+        return type(self.references[0].shape)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -139,24 +172,22 @@ class Collection:
 
 
 def _normalised(
-    name: str, path: Path | None, mesh: Mesh, orientation: Orientation, notes: tuple[str, ...]
+    name: str, path: Path | None, shape: Shape, orientation: Orientation, notes: tuple[str, ...]
 ) -> Reference:
-    turned = mesh.transformed(orientation.matrix)
+    turned = shape.transformed(orientation.matrix) if isinstance(shape, Mesh) else shape
     return Reference(name, path, turned.normalised(), turned.normalisation(), orientation, notes)
 
 
 def _in_memory(name: str, value: Any, orientation: Orientation) -> Reference:
     try:
         shape = as_shape(value)
-        if not isinstance(shape, Mesh):
-            raise UnreadableError("a drawing; a collection holds meshes")
-        mesh, notes = files.sound(shape.vertices, shape.faces)
+        shape, notes = files.sound(shape.vertices, shape.faces) if isinstance(shape, Mesh) else (shape, ())
     except TypeError as error:
-        kind = type(value).__name__
-        raise CollectionError(f"{name}: {kind} is no mesh; give a Mesh, a trimesh, or (vertices, faces)") from error
+        which = f"{type(value).__name__} is no shape; give a Mesh, a trimesh, (vertices, faces) or a Drawing"
+        raise CollectionError(f"{name}: {which}") from error
     except ValueError as error:
         raise CollectionError(f"{name}: {error}") from error
-    return _normalised(name, None, mesh, orientation, notes)
+    return _normalised(name, None, shape, orientation, notes)
 
 
 def _nothing_readable(skipped: Mapping[Path, str]) -> str:

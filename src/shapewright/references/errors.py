@@ -6,4 +6,4 @@ class CollectionError(ValueError):
 
 
 class UnreadableError(ValueError):
-    """One file holds no usable triangles; the message is the reason that ``Collection.skipped`` lists."""
+    """One file holds no usable triangles and no drawing; the message is the reason in ``Collection.skipped``."""

@@ -1,4 +1,4 @@
-"""One file of a collection, read into the triangles that it holds, in its own units and axes."""
+"""One file of a collection, read into the triangles or the drawing that it holds, in its own units and axes."""
 
 from __future__ import annotations
 
@@ -13,12 +13,16 @@ from shapewright.references.errors import UnreadableError
 from shapewright.references.obj import read_obj
 from shapewright.references.off import read_off
 from shapewright.references.ply import read_ply
+from shapewright.references.png import read_png
 from shapewright.references.polygons import Polygons, check_indices, triangulate
-from shapewright.shapes import Floats, Ints, Mesh
+from shapewright.references.svg import read_svg
+from shapewright.shapes import Drawing, Floats, Ints, Mesh, Shape
 
 _POLYGONS: dict[str, Callable[[bytes], Polygons]] = {".obj": read_obj, ".off": read_off, ".ply": read_ply}
 _SCENES = (".3mf", ".glb", ".gltf", ".stl")
-EXTENSIONS = tuple(sorted((*_POLYGONS, *_SCENES)))
+_DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {".png": read_png, ".svg": read_svg}
+MESHES = (*_POLYGONS, *_SCENES)
+EXTENSIONS = tuple(sorted((*MESHES, *_DRAWINGS)))
 
 # trimesh would read zeros or whole numbers in place of the coordinates.
 _COMPRESSIONS = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"}
@@ -26,8 +30,8 @@ _COMPRESSIONS = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_m
 _LEAST_AREA = 1e-12
 
 
-def read(path: Path) -> tuple[Mesh, tuple[str, ...]]:
-    """The triangles of a file in one mesh, and notes on what of it was left out.
+def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
+    """The triangles of a file in one mesh, or its drawing, and notes on what of it was left out.
 
     Polygons are triangulated, scenes flattened; materials and textures are not looked at. Triangles stay as they are:
     inward, doubled, without thickness. Left out are vertices that no triangle uses and, with a note, triangles with a
@@ -45,6 +49,8 @@ def read(path: Path) -> tuple[Mesh, tuple[str, ...]]:
     if data.startswith(b"version https://git-lfs"):
         raise UnreadableError("a pointer of Git LFS, not the file itself; fetch it with `git lfs pull`")
     try:
+        if kind in _DRAWINGS:
+            return _DRAWINGS[kind](data)
         vertices, faces = _read_polygons(kind, data) if kind in _POLYGONS else _read_scene(path, kind, data)
     except UnreadableError:
         raise

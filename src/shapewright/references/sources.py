@@ -15,13 +15,14 @@ from pathlib import Path
 from typing import TypeAlias
 
 from shapewright.references.errors import CollectionError
-from shapewright.references.files import EXTENSIONS
+from shapewright.references.files import EXTENSIONS, MESHES
 from shapewright.references.orientation import Orientation
 
 Origin: TypeAlias = str | os.PathLike[str]
 _SHAPENET = ("models", "model_normalized.obj")
 _LOOKED_FOR = " ".join(EXTENSIONS)
 _SHOWN = 5
+_TEXTURE = ".png"
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,8 @@ class _Found:
 def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> list[Source]:
     """The files of a collection, in natural order of their names (chair2 before chair10).
 
-    A folder gives the files directly in it or, when none of them is a shape, those of all folders below. A pattern is
+    A folder gives the files directly in it or, when none of them is a shape, those of all folders below; beside meshes
+    and above them PNG files are textures and previews, and are passed over. A pattern is
     a glob, ``**`` included. A ``.csv`` file is a manifest: a column ``path``, relative to the manifest, and if wanted
     ``name``, ``up`` and ``front``; an empty cell leaves the argument in force. Hidden files are passed over, and so are
     files of other kinds. A name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj``
@@ -89,11 +91,13 @@ def _expand(path: Path, alone: bool) -> list[_Found]:
 
 
 def _in_folder(folder: Path) -> list[Path]:
-    direct = [path for path in folder.iterdir() if path.is_file() and _is_shape(path)]
-    if direct:
+    direct = _without_textures([path for path in folder.iterdir() if path.is_file() and _is_shape(path)])
+    if any(path.suffix.lower() != _TEXTURE for path in direct):
         return sorted(direct)
     below = sorted(_walk(folder))
-    shapes = [path for path in below if _is_shape(path)]
+    shapes = _without_textures([path for path in below if _is_shape(path)])
+    if direct and not any(_is_mesh(path) for path in shapes):
+        return sorted(direct)
     if not shapes:
         raise CollectionError(f"{folder} holds no shapes: looked for {_LOOKED_FOR}, found {_kinds(below)}")
     return shapes
@@ -119,7 +123,7 @@ def _in_pattern(pattern: Path) -> list[Path]:
     # Path.glob takes no absolute pattern.
     matches = [Path(match) for match in sorted(glob.glob(str(pattern), recursive=True))]  # noqa: PTH207
     files = [path for path in matches if path.is_file()]
-    shapes = [path for path in files if _is_shape(path)]
+    shapes = _without_textures([path for path in files if _is_shape(path)])
     if not shapes:
         found = _kinds(files) + ("; it matches folders: add /* to it" if len(matches) > len(files) else "")
         raise CollectionError(f"{pattern} matches no shapes: looked for {_LOOKED_FOR}, found {found}")
@@ -182,6 +186,16 @@ def _unique(names: Sequence[str], paths: Sequence[Path]) -> list[str]:
 
 def _is_shape(path: Path) -> bool:
     return path.suffix.lower() in EXTENSIONS and not _is_hidden(path.name)
+
+
+def _is_mesh(path: Path) -> bool:
+    return path.suffix.lower() in MESHES
+
+
+def _without_textures(paths: Sequence[Path]) -> list[Path]:
+    """The shapes among files; where there are meshes among them, PNG files are none."""
+    meshes = any(_is_mesh(path) for path in paths)
+    return [path for path in paths if not (meshes and path.suffix.lower() == _TEXTURE)]
 
 
 def _is_hidden(name: str) -> bool:

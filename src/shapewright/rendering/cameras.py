@@ -38,6 +38,8 @@ class Camera:
 
 
 THREE_VIEWS = (Camera(35.0, 25.0), Camera(0.0, 5.0), Camera(90.0, 15.0))
+PAGE = Camera(0.0, 0.0)
+"""The camera of drawings: there is one picture of them, and it is never moved."""
 THUMBNAIL = Camera(35.0, 25.0, distance=3.6, field_of_view=27.5)
 
 _FURTHER = ((215.0, 25.0), (125.0, -20.0), (300.0, 55.0))

@@ -10,7 +10,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import THREE_VIEWS, Camera, pack
-from shapewright.shapes import Mesh
+from shapewright.rendering.ink import picture
+from shapewright.shapes import Mesh, Shape
 from shapewright.threads import in_threads
 
 AMBIENT = 0.25
@@ -20,25 +21,30 @@ _NEAR = 0.05
 
 
 def render(
-    meshes: Sequence[Mesh],
+    shapes: Sequence[Shape],
     cameras: Sequence[Camera] = THREE_VIEWS,
     size: int = 64,
     supersample: int = 2,
     threads: int | None = None,
 ) -> NDArray[np.uint8]:
-    """Pictures of normalised meshes: (N, C, 2, size, size), row 0 at the top.
+    """Pictures of normalised shapes: (N, C, 2, size, size), row 0 at the top.
 
     Channel 0 is shading (0 background, a face 64 to 255 by its angle to a light that rides on the camera, both sides
     alike), channel 1 depth (0 background; 255 nearest, DEPTH_RADIUS before the origin, to 1 as far behind it). Each
-    pixel is the mean of supersample x supersample samples.
+    pixel is the mean of supersample x supersample samples. A drawing looks the same to every camera, see
+    ``ink.picture``.
     """
     packed = pack(cameras)
-    images = np.zeros((len(meshes), len(cameras), 2, size, size), dtype=np.uint8)
+    images = np.zeros((len(shapes), len(cameras), 2, size, size), dtype=np.uint8)
 
     def draw(i: int) -> None:
-        _draw(meshes[i].vertices, meshes[i].faces, packed, size, supersample, images[i])
+        shape = shapes[i]
+        if isinstance(shape, Mesh):
+            _draw(shape.vertices, shape.faces, packed, size, supersample, images[i])
+        else:
+            images[i] = picture(shape, size, supersample)
 
-    in_threads(draw, range(len(meshes)), threads)
+    in_threads(draw, range(len(shapes)), threads)
     return images
 
 

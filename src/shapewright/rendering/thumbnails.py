@@ -9,11 +9,13 @@ from typing import Any
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 from PIL import Image
 
+from shapewright.rendering import ink
 from shapewright.rendering.cameras import THUMBNAIL, pack
 from shapewright.rendering.raster import AMBIENT, draw_view
-from shapewright.shapes import Mesh
+from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.threads import in_threads
 
 SUPERSAMPLE = 3
@@ -25,14 +27,33 @@ STEP = 0.012
 _DARKEST, _INK = 0.42, 0.4
 # Fewer greys make smaller files, and nobody can tell 32 from 256 on flat faces.
 _GREYS = 32
+_PLAIN = 150
 
 
-def thumbnail(mesh: Mesh, size: int = 256) -> bytes:
-    """A picture of a mesh as PNG bytes: grey and alpha, size x size pixels, seen from the right and a little above.
+def thumbnail(shape: Shape, size: int = 256) -> bytes:
+    """A picture of a shape as PNG bytes: grey and alpha, size x size pixels; a mesh from the right and a little above.
 
-    The mesh is normalised first, so that the whole of it is in the picture whatever its size and place.
+    The shape is normalised first, so that the whole of it is in the picture whatever its size and place.
     Raises ValueError for a mesh without faces or of no size.
     """
+    return _png(_shaded(shape, size) if isinstance(shape, Mesh) else _plain(shape, size))
+
+
+def thumbnails(shapes: Sequence[Shape], size: int = 256, threads: int | None = None) -> list[bytes]:
+    """``thumbnail`` of each shape, in order; the bytes do not depend on the number of threads."""
+    return in_threads(lambda shape: thumbnail(shape, size), shapes, threads)
+
+
+def _plain(drawing: Drawing, size: int) -> NDArray[np.uint8]:
+    """One grey, light enough for a tint over it to show, inside a margin of an eighth."""
+    inner = size * 3 // 4
+    alpha = np.zeros((size, size), dtype=np.uint8)
+    start = (size - inner) // 2
+    alpha[start : start + inner, start : start + inner] = ink.picture(drawing, inner, SUPERSAMPLE)[0]
+    return np.stack([np.full_like(alpha, _PLAIN), alpha], axis=-1)
+
+
+def _shaded(mesh: Mesh, size: int) -> NDArray[np.uint8]:
     normalised = mesh.normalised()
     camera = pack([THUMBNAIL])[0]
     side = size * SUPERSAMPLE
@@ -40,14 +61,13 @@ def thumbnail(mesh: Mesh, size: int = 256) -> bytes:
     draw_view(normalised.vertices, normalised.faces, camera, np.empty_like(normalised.vertices), shade, inverse_depth)
     picture = np.empty((size, size, 2), dtype=np.uint8)
     _ink(shade, inverse_depth, 2.0 / (side * camera[10]), picture)
+    return picture
+
+
+def _png(picture: NDArray[np.uint8]) -> bytes:
     buffer = io.BytesIO()
     Image.fromarray(picture).save(buffer, "PNG")
     return buffer.getvalue()
-
-
-def thumbnails(meshes: Sequence[Mesh], size: int = 256, threads: int | None = None) -> list[bytes]:
-    """``thumbnail`` of each mesh, in order; the bytes do not depend on the number of threads."""
-    return in_threads(lambda mesh: thumbnail(mesh, size), meshes, threads)
 
 
 @njit(nogil=True, cache=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+import math
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,8 @@ from shapewright.report.comparison import compare
 from shapewright.report.explanation import badges, outlines, read_explanation
 
 FORMAT = 1
-# The paper's colours: green for a perfect replica, yellow at the threshold, red from FAR thresholds on.
+# The paper's colours: green for a perfect replica, yellow at the threshold, red from FAR thresholds on, unless the
+# record's metric says where.
 GREEN, YELLOW, RED = (62, 166, 100), (247, 205, 70), (222, 74, 62)
 FAR = 2.5
 # Thumbnails are tinted by one of this many filters, not by a colour each.
@@ -57,13 +59,13 @@ def write_report(folder: Path, previous: Path | None = None, explanation: Path |
     return path
 
 
-def colour(distance: float | None, threshold: float) -> str:
-    """#rrggbb of a distance: green at 0, yellow at the threshold, red at FAR thresholds and beyond; grey for None."""
+def colour(distance: float | None, threshold: float, far: float = FAR) -> str:
+    """#rrggbb of a distance: green at 0, yellow at the threshold, red at ``far`` thresholds and on; grey for None."""
     if distance is None:
         return "#9a9a9a"
     near = distance <= threshold
     start, end = (GREEN, YELLOW) if near else (YELLOW, RED)
-    part = distance / threshold if near else min(1.0, (distance / threshold - 1.0) / (FAR - 1.0))
+    part = distance / threshold if near else min(1.0, (distance / threshold - 1.0) / (far - 1.0))
     return "#" + "".join(f"{round(a + (b - a) * part):02x}" for a, b in zip(start, end, strict=True))
 
 
@@ -81,6 +83,8 @@ def _read(folder: Path) -> dict[str, Any]:
 def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] | None) -> dict[str, Any]:
     """What the template shows. A pair is known by its index in the order of the page."""
     threshold = record["threshold"]
+    metric = record.get("metric") or {"far": FAR * threshold, "criterion": f"distance at most {_value(threshold)}"}
+    far = metric["far"] / threshold
     references = {reference["name"]: reference for reference in record["references"]}
 
     def by_distance(names: list[str]) -> list[str]:
@@ -97,7 +101,7 @@ def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] 
     index = {name: i for i, name in enumerate(order)}
     told = explanation["references"] if explanation else {}
     parameters = record["procedure"]["parameters"]
-    pairs = [_pair(references[name], folder, threshold, parameters, told.get(name)) for name in order]
+    pairs = [_pair(references[name], folder, threshold, far, parameters, told.get(name)) for name in order]
     return {
         "record": record,
         "created": _date(record["created"]),
@@ -109,15 +113,18 @@ def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] 
         "no_replica": all(references[name]["distance"] is None for name in ungrouped),
         "compatible": [index[name] for name in compatible],
         "strip": [index[name] for name in by_distance(list(references))],
-        "highest": max([1.5 * threshold, *(pair["distance"] or 0.0 for pair in pairs)]),
+        "criterion": metric["criterion"],
+        "mean_iou": _mean([references[name]["iou"] for name in compatible]),
+        "highest": max([min(1.5, far) * threshold, *(pair["distance"] or 0.0 for pair in pairs)]),
         "frame": _frame([picture for pair in pairs for picture in pair["pictures"]]),
-        "far": FAR,
-        "tints": [colour(FAR * threshold * i / (TINTS - 1), threshold) for i in range(TINTS)],
+        "far": far,
+        "tints": [colour(far * threshold * i / (TINTS - 1), threshold, far) for i in range(TINTS)],
         "at_limit": {
             parameter["name"]: sum(parameter["name"] in reference["at_limit"] for reference in references.values())
             for parameter in record["procedure"]["parameters"]
         },
         "curves": _curves(record["metrics"]["curve"]),
+        "cameras": _cameras(record["metrics"].get("cameras")),
         "data": {"parameters": [_parameter(p) for p in record["procedure"]["parameters"]], "pairs": _details(pairs)},
     }
 
@@ -126,6 +133,7 @@ def _pair(
     reference: dict[str, Any],
     folder: Path,
     threshold: float,
+    far: float,
     parameters: list[dict[str, Any]],
     told: dict[str, Any] | None,
 ) -> dict[str, Any]:
@@ -137,8 +145,8 @@ def _pair(
         **reference,
         "causes": badges(told) if told else [],
         "outlines": outlines(told) if told and not reference["compatible"] else ([], []),
-        "colour": colour(distance, threshold),
-        "tint": None if distance is None else round(min(distance / (FAR * threshold), 1.0) * (TINTS - 1)),
+        "colour": colour(distance, threshold, far),
+        "tint": None if distance is None else round(min(distance / (far * threshold), 1.0) * (TINTS - 1)),
         "pictures": pictures,
         "sources": [p and "data:image/png;base64," + base64.b64encode(p).decode() for p in pictures],
         "link": reference["replica"] and quote(reference["replica"]),
@@ -219,6 +227,26 @@ def _curves(curve: list[dict[str, Any]]) -> dict[str, Any] | None:
         "last": last,
         "highest": highest,
     }
+
+
+def _cameras(places: dict[str, Any] | None) -> list[dict[str, Any]]:
+    """Where each camera stood before and after training: as seen from above, the front at the bottom, and in words."""
+    if not places or "after" not in places:
+        return []
+
+    def above(place: list[float]) -> tuple[float, float]:
+        azimuth, elevation, distance = math.radians(place[0]), math.radians(place[1]), place[2]
+        return distance * math.cos(elevation) * math.sin(azimuth), distance * math.cos(elevation) * math.cos(azimuth)
+
+    return [
+        {"from": above(before), "to": above(after), "before": before, "after": after, "moved": before != after}
+        for before, after in zip(places["before"], places["after"], strict=True)
+    ]
+
+
+def _mean(numbers: list[float | None]) -> float | None:
+    known = [number for number in numbers if number is not None]
+    return sum(known) / len(known) if known else None
 
 
 def _date(text: str) -> str:

@@ -1,0 +1,29 @@
+"""What decides whether a reference counts as replicated."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A distance and its threshold, for a run's record.
+
+    name: of the distance. threshold: the largest one of a compatible reference. far: the distance from which on shapes
+    have nothing in common, for the colours of reports. criterion: when a reference is compatible, in words.
+    """
+
+    name: str
+    threshold: float
+    far: float
+    criterion: str
+
+
+def light_field(threshold: float) -> Metric:
+    """The light-field distance of meshes (paper section 4.3)."""
+    return Metric("light-field distance", threshold, 2.5 * threshold, f"light-field distance at most {threshold:g}")
+
+
+def fidelity(least: float) -> Metric:
+    """The visual information fidelity (VIF) of drawings (paper section 6.2), as a distance: 1 - VIF."""
+    return Metric("1 - VIF", 1.0 - least, 1.0, f"visual information fidelity at least {least:g}")

@@ -1,0 +1,121 @@
+"""The judge of drawings: pictures instead of light fields."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shapewright import metric
+from shapewright.building import Build
+from shapewright.comparison import outline
+from shapewright.comparison.grouping import Group, group
+from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
+from shapewright.references import Collection
+from shapewright.rendering.ink import picture
+from shapewright.settings import Settings
+from shapewright.shapes import Drawing, Shape
+from shapewright.threads import in_threads
+
+Floats = NDArray[np.float64]
+SMALL = 64
+"""Pixels along the side of the pictures that are compared while searching."""
+UNIT = 100.0
+"""A pixel's residual where one picture is black and the other white; the search takes a fifth of that as small."""
+
+
+@dataclass(frozen=True, eq=False)
+class PictureJudge:
+    """Measures replicas against the drawings of one collection, on several threads; what Judge is for meshes.
+
+    outlines: of the references; None for one so thin that no pixel shows it, which nothing can replicate.
+    """
+
+    references: Collection
+    outlines: tuple[outline.Outline | None, ...]
+    settings: Settings
+
+    @classmethod
+    def of(cls, references: Collection, settings: Settings, cache: Path | None = None) -> PictureJudge:
+        """Describe the references, too quickly for a cache to matter."""
+        return cls(references, tuple(in_threads(_describe, [r.shape for r in references], settings.workers)), settings)
+
+    @property
+    def metric(self) -> metric.Metric:
+        return metric.fidelity(self.settings.fidelity)
+
+    def distances(self, builds: Sequence[Build]) -> Floats:
+        """One less the visual information fidelity of one build for each reference, (N,); NaN where there is none."""
+
+        def distance(row: int) -> float:
+            pair = self._pair(row, builds[row].shape)
+            return max(0.0, 1.0 - visual_information_fidelity(*pair)) if pair else np.nan
+
+        return np.array(in_threads(distance, range(len(builds)), self.settings.workers))
+
+    def search_residuals(self, pairs: Sequence[tuple[int, Shape]]) -> list[Floats | None]:
+        """What a replica and the reference with that index do not share: the differences of their small pictures.
+
+        The sum of absolute values is the area that only one of them covers. None where one cannot be seen.
+        """
+        targets = {i: _coverage(self.references.references[i].shape) for i in {i for i, _ in pairs}}
+
+        def residual(asked: tuple[int, Shape]) -> Floats | None:
+            return _coverage(asked[1]) - targets[asked[0]] if self._pair(*asked) else None
+
+        return in_threads(residual, pairs, self.settings.workers)
+
+    @property
+    def goal(self) -> None:
+        """Areas say nothing of which replica is surely compatible."""
+        return None
+
+    def overlaps(self, builds: Sequence[Build]) -> tuple[Floats, Floats]:
+        """IoU of one build for each reference, and no Chamfer distance; NaN where there is none."""
+
+        def overlap(row: int) -> float:
+            pair = self._pair(row, builds[row].shape)
+            return intersection_over_union(*pair) if pair else np.nan
+
+        iou = in_threads(overlap, range(len(builds)), self.settings.workers)
+        return np.array(iou), np.full(len(builds), np.nan)
+
+    def depths(self, builds: Sequence[Build]) -> Floats:
+        """Drawings have no depth: NaN."""
+        return np.full(len(builds), np.nan)
+
+    def compatible(self, distances: Floats, iou: Floats, depth: Floats) -> NDArray[np.bool_]:
+        """Which replicas are near enough."""
+        return np.asarray(distances <= self.metric.threshold)
+
+    def groups(self, compatible: NDArray[np.bool_]) -> tuple[Group, ...]:
+        """The references that are not compatible, by the likeness of their outlines."""
+        rows = [i for i, d in enumerate(self.outlines) if d and not compatible[i]]
+        misfits = [d for i in rows if (d := self.outlines[i])]
+        between = outline.distances(misfits, align=self.settings.align)
+        names = [self.references.names[i] for i in rows]
+        # The absolute cut of the settings is a light-field distance, which has another scale.
+        return group(names, between, self.settings.cut)
+
+    def _pair(self, row: int, shape: Shape | None) -> tuple[Drawing, Drawing] | None:
+        """The reference and a replica of it, where both can be seen."""
+        reference = self.references.references[row].shape
+        if self.outlines[row] is None or not isinstance(reference, Drawing) or not isinstance(shape, Drawing):
+            return None
+        return (reference, shape) if outline.silhouette(shape).any() else None
+
+
+def _coverage(shape: Shape) -> Floats:
+    """(SMALL * SMALL,): how much of each pixel a drawing covers, in units of UNIT."""
+    assert isinstance(shape, Drawing)
+    return np.asarray(picture(shape, SMALL, 8)[0].ravel() * (UNIT / 255.0))
+
+
+def _describe(shape: Shape) -> outline.Outline | None:
+    try:
+        return outline.descriptor(shape) if isinstance(shape, Drawing) else None
+    except ValueError:
+        return None
