@@ -19,10 +19,11 @@ from shapewright.prediction.refinement import Budget, refine
 from shapewright.procedure import Procedure, load_procedure
 from shapewright.shapes import Mesh
 
+PEEK = Budget(((1, 1), (1, 6), (1, 6)))
 GLANCE = Budget(((2, 1), (1, 6), (1, 8), (1, 8)))
-LOOK = Budget(((3, 1), (2, 6), (1, 10), (1, 10)))
+LOOK = Budget(((3, 2), (2, 6), (1, 10), (1, 10)))
 SEARCH = Budget(((2, 2), *((1, 10),) * 9))
-_PROMISING = 1.6  # thresholds: what a first look leaves further away is not searched for
+_PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
 _ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
 _SPREAD = 0.1
 
