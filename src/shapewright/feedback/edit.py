@@ -241,7 +241,10 @@ def _returns(text: _Text, function: ast.FunctionDef, rule: NewRule) -> Iterator[
             assignment = f"    {name} = {rule.call.format(shape=name)}"
             if len(indent) + len(assignment) > _LINE:
                 opened, arguments = assignment[:-1].split("(", 1)
-                assignment = f"{opened}(\n{indent}        {arguments}\n{indent}    )"
+                inner = f"\n{indent}        "
+                if len(inner) + len(arguments) > _LINE:
+                    arguments = f",{inner}".join(arguments.split(", ")) + ","
+                assignment = f"{opened}({inner}{arguments}\n{indent}    )"
             lines += [assignment, f"return {name}"]
         yield _Change(start, end, f"\n{indent}".join(lines))
 

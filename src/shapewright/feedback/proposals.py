@@ -143,7 +143,7 @@ def _long(parameter: Parameter, sides: set[str]) -> tuple[float, float, float]:
         low = max(low, parameter.low / 4.0 if isinstance(parameter, Scalar) else min(parameter.low, 1))
     return (
         low if "low" in sides else parameter.low,
-        parameter.high + span if "high" in sides else parameter.high,
+        parameter.high + (2.0 * span if isinstance(parameter, Scalar) else span) if "high" in sides else parameter.high,
         parameter.default,
     )
 

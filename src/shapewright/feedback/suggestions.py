@@ -17,7 +17,7 @@ from shapewright.feedback.edit import EditError, parameter_line, snippet
 from shapewright.feedback.explanation import Explained
 from shapewright.feedback.hypotheses import Hypothesis, hypotheses
 from shapewright.feedback.proposals import Misfit, Proposal, Ranges, narrowed, proposals
-from shapewright.feedback.trial import GLANCE, LOOK, SEARCH, Trial, changed, tried, unchanged
+from shapewright.feedback.trial import GLANCE, LOOK, PEEK, SEARCH, Trial, changed, tried, unchanged
 from shapewright.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.procedure import Procedure, ProcedureError
@@ -177,16 +177,19 @@ def _confirmed(
     procedure: Procedure, ideas: Sequence[Proposal], misfits: Sequence[Misfit], judge: Judge
 ) -> list[_Tried]:
     """The proposals that make references compatible, with the Ranges that these need."""
-    found = []
-    left = 0.6 * EVALUATIONS
+    found: list[_Tried] = []
+    peek, look, search = (budget.evaluations(_scalars(procedure.space)) for budget in (PEEK, LOOK, SEARCH))
+    most, left = int(0.5 * EVALUATIONS / _CONFIRMED / peek), 0.6 * EVALUATIONS
     for idea in ideas[:_CONFIRMED]:
         first = [m for m in misfits if m.row in idea.starts]
         others = [m for m in misfits if m.row not in idea.starts]
-        affordable = max(len(first), int(left / _CONFIRMED / LOOK.evaluations(_scalars(procedure.space))))
-        some = (first + others)[:affordable]
+        some = (first + others)[: max(_GLANCES, most)]
+        left -= peek * len(some) + (look + search / 2) * min(len(first), len(some))
+        if left < 0.0 and len(found) > 1:
+            break
         starts = {m.row: idea.start(m) for m in some}
         with changed(idea.write(idea.ranges), procedure, judge) as new:
-            trial = tried(new, starts, judge, [LOOK, SEARCH], judge.settings.seed)
+            trial = tried(new, starts, judge, [PEEK, LOOK, SEARCH], judge.settings.seed)
         made = {row: trial.parameters[row] for row in trial.compatible}
         if not made or _falls_apart(trial, {m.row: m.replica for m in some}):
             continue

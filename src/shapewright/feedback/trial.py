@@ -19,10 +19,11 @@ from shapewright.prediction.refinement import Budget, Round, refine
 from shapewright.procedure import Procedure, load_procedure
 from shapewright.shapes import Mesh
 
+PEEK = Budget((Round(1), Round(1), Round(1, 2, 4)))
 GLANCE = Budget((Round(2), Round(1), *(Round(1, 2, 4),) * 2))
 LOOK = Budget((Round(3), Round(2), *(Round(1, 2, 6),) * 2))
 SEARCH = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9))
-_PROMISING = 1.6  # thresholds: what a first look leaves further away is not searched for
+_PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
 _ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
 _SPREAD = 0.1
 

@@ -310,7 +310,8 @@ def _piece_lines(
         count = asked[-1].name
         # The gaps shrink with the count, so that any number of slats fits.
         part = float(np.median([piece.gap * piece.count for piece in several]))
-        gap = f"{number(part)} * ({sizes['xyz'.index(kind[-1])]}) / {count}"
+        across = sizes["xyz".index(kind[-1])]
+        gap = f"{number(part)} * {across if across.isidentifier() else f'({across})'} / {count}"
     middles = [f"({low} + {high}) / 2" for low, high in zip(*_CORNERS, strict=True)]
     copies = ""
     for letter, on, axis in (("x", mirrored[0], 0), ("z", mirrored[1], 2)):
