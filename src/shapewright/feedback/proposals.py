@@ -92,7 +92,7 @@ def frames_of(replica: Mesh, always: Sequence[str]) -> Frames:
 
 
 def _wider(source: str, procedure: str, space: ParameterSpace, misfits: Sequence[Misfit]) -> Iterator[Proposal]:
-    ends = Counter(end for misfit in misfits for end in pressed(space, misfit.parameters))
+    ends = Counter(end for misfit in misfits for end in sorted(pressed(space, misfit.parameters)))
     least = max(2, 0.05 * len(misfits))
     common = [end for end, count in ends.most_common(8) if count >= least and _goes_on(space[end[0]], end[1])][:6]
     for chosen in dict.fromkeys([*((end,) for end in common), tuple(common)]):
@@ -223,7 +223,7 @@ def _with_pieces(
     rest: bool,
 ) -> Iterator[Proposal]:
     """Rules for the pieces that are commonest among hypotheses that take the same part away, or none."""
-    counts = Counter(key for _, h in pairs for key in {_form(piece) for piece in h.pieces})
+    counts = Counter(key for _, h in pairs for key in dict.fromkeys(_form(piece) for piece in h.pieces))
     common = [key for key, count in counts.most_common(5) if count >= max(1, _SHARED * len(pairs))]
     chosen_sets = [tuple(common[:k]) for k in range(1, min(_MOST_PIECES, len(common)) + 1)]
     chosen_sets += [(key,) for key in common[1:]]
