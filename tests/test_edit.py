@@ -5,6 +5,7 @@ from shapewright.feedback.edit import (
     EditError,
     NewParameter,
     NewRule,
+    can_edit,
     free_name,
     parameter_line,
     snippet,
@@ -125,6 +126,11 @@ def test_long_calls_take_several_lines(tmp_path):
     source = with_rule(STOOL, "stool", rule)
     assert len(loaded(tmp_path, source)(much=True).faces) > 0
     assert max(len(line) for line in source.splitlines() if "def change" not in line and "if round" not in line) <= 120
+
+
+def test_what_can_be_edited():
+    assert can_edit(STOOL, "stool") and not can_edit(STOOL, "table")
+    assert not can_edit("", "stool") and not can_edit("    def stool():\n", "stool")
 
 
 def test_names_that_are_free():

@@ -101,12 +101,17 @@ def test_slats_have_a_count(tmp_path):
 
 
 def test_a_part_drawn_in_stays_where_it_was_by_default(tmp_path):
-    rule = drawing_in("legs", [(0.7, 0.8)], FREE, "Legs, nearer to the middle.")
+    rule = drawing_in("legs", [(0.7, 0.8)], FRAMES[:1], FREE, "Legs, nearer to the middle.")
     path = tmp_path / "table.py"
     path.write_text(with_rule(TABLE, "table", rule.spelled({q.name: (0.5, 1.0, 1.0) for q in rule.quantities})))
     procedure = sw.load_procedure(path)
     np.testing.assert_allclose(part(procedure(), "legs")[:, 0], [-0.5, 0.5])
     np.testing.assert_allclose(part(procedure(legs_inset_x=0.6), "legs")[:, 0], [-0.3, 0.3])
+
+
+def test_a_shape_off_the_origin_is_drawn_in_about_its_own_middle():
+    aside = [{WHOLE: frames(0.5, 0.5)[WHOLE] + np.array([2, 0, 0])}]
+    assert "about=shape.bounds.mean(axis=0)" in drawing_in("legs", [(0.7, 0.8)], aside, FREE, "Legs.").function
 
 
 def test_a_part_that_may_be_missing(tmp_path):

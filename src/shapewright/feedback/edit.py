@@ -95,6 +95,15 @@ class _Text:
         return text.decode()
 
 
+def can_edit(source: str, procedure: str) -> bool:
+    """Whether the source is that of a file with the procedure at its top level."""
+    try:
+        _Text(source).function(procedure)
+    except (EditError, SyntaxError):
+        return False
+    return True
+
+
 def with_range(
     source: str, procedure: str, parameter: str, low: str | None, high: str | None, steps: str | None
 ) -> str:

@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 
 from shapewright.building import Workers
 from shapewright.feedback.cards import Example, card
-from shapewright.feedback.edit import EditError, parameter_line, snippet
+from shapewright.feedback.edit import EditError, can_edit, parameter_line, snippet
 from shapewright.feedback.explanation import Explained
 from shapewright.feedback.hypotheses import Hypothesis, hypotheses
 from shapewright.feedback.proposals import Misfit, Proposal, Ranges, narrowed, proposals
@@ -94,7 +94,7 @@ def suggest(
     """
     stages = stages or Stages(None)
     explained = {each.row: each for each in wanting if each.nearest.distance > judge.settings.threshold}
-    if not explained or not procedure.source:
+    if not explained or not can_edit(procedure.source, procedure.name):
         return ()
     stages.begin("hypotheses", 1)
     misfits = _misfits(list(explained.values()), judge)
