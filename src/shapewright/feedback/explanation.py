@@ -14,6 +14,7 @@ from shapewright.feedback.causes import Cause, Evidence, causes
 from shapewright.feedback.outliers import isolation, outliers
 from shapewright.feedback.placement import Overlay, place
 from shapewright.feedback.residuals import Region, Residuals, residuals
+from shapewright.feedback.rules import with_rules
 from shapewright.feedback.search import Found, Inferred, Searcher
 from shapewright.feedback.shared import Misfit, shared
 from shapewright.feedback.surface import Surface
@@ -113,6 +114,8 @@ def explain(
         differences = _residuals(surfaces.values(), [found[row].mesh for row in rows], settings.workers)
         searcher = Searcher(procedure.space, crew, judge, settings.seed)
         stages.begin("causes", 4)
+        vectors = [found[row].parameters for row in rows]
+        differences = with_rules(procedure, vectors, differences, settings.workers, limits_of(settings))
         misfits = [row for row in rows if not iteration.results[row].compatible]
         why = _causes(searcher, surfaces, iteration.predictor, {row: found[row] for row in misfits}, stages)
         explained = {}
@@ -171,6 +174,8 @@ def _causes(
     alone = isolation(searcher.judge.descriptors, settings.align, settings.workers, settings.seed)
     strange = outliers(alone)
     differences = _residuals(theirs, [best.mesh for best in laid], settings.workers)
+    vectors = [best.parameters for best in laid]
+    differences = with_rules(searcher.crew.procedure, vectors, differences, settings.workers, searcher.crew.limits)
     told = {}
     for i, row in enumerate(rows):
         evidence = Evidence(
