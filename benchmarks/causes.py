@@ -29,14 +29,12 @@ from shapewright.feedback.search import Found, Searcher
 from shapewright.judge import Judge
 from shapewright.modelling.solids import Solid, box, cylinder, sphere
 from shapewright.parameters import Parameters
-from shapewright.prediction.evolution import Budget
+from shapewright.prediction.refinement import QUICK
 from shapewright.results import Result, at_limit
 
 WHOLE = Path(__file__).parent.parent / "examples" / "tables" / "v5.py"
 LEGS = 'Literal["basic", "support", "pedestal", "split"] = "basic"'
 Of = Callable[[Parameters], bool]
-
-QUICK = Budget(((8, 1), (3, 4), (2, 6), *((1, 8),) * 4))
 
 
 @dataclass(frozen=True)
@@ -179,7 +177,7 @@ def made(
         )
         for reference, found in zip(references, known, strict=True)
     )
-    return sw.Iteration(results, (), judge.metric, settings, {}, {}, "", {}, {}, {}, "")
+    return sw.Iteration(results, judge.metric, (), settings, {}, {}, "", {}, {}, {}, "")
 
 
 def main() -> None:

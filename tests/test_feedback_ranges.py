@@ -28,9 +28,9 @@ def test_pressed_ends_are_those_of_numbers_that_matter():
 
 def test_a_widened_space_keeps_the_sense_of_its_numbers():
     wide = widened(SPACE)
-    assert (wide["height"].low, wide["height"].high) == (0.125, 1.5)
-    assert (wide["tilt"].low, wide["tilt"].high) == (-3.0, 3.0)
-    assert (wide["gap"].low, wide["gap"].high) == (0.0, 0.4)
+    assert (wide["height"].low, wide["height"].high) == (0.125, 2.0)
+    assert (wide["tilt"].low, wide["tilt"].high) == (-3.0, 5.0)
+    assert (wide["gap"].low, round(wide["gap"].high, 9)) == (0.0, 0.6)
     assert (wide["shelves"].low, wide["shelves"].high) == (0, 6)
     assert wide["round"] == SPACE["round"] and wide["height"].steps is None
     assert wide.active(values(shelves=0)) == SPACE.active(values(shelves=0))
@@ -42,7 +42,7 @@ def test_limits_are_the_spaces_own_but_for_free_ends():
     own = [wide["height"].encode(end) for end in (0.5, 1.0)]
     assert np.allclose([low[0, 0], high[0, 0]], own)
     assert np.allclose([low[1, 0], high[1, 0]], [own[0], 1.0])
-    assert wide["height"].decode(high[1, 0]) == 1.5
+    assert wide["height"].decode(high[1, 0]) == 2.0
 
 
 def test_wishes_are_what_lies_outside():

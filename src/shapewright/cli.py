@@ -97,12 +97,12 @@ def fit(
     threshold: Annotated[
         float | None, typer.Option(help="Largest distance of a compatible mesh.  [dim]default: 0.18[/]")
     ] = None,
-    fidelity: Annotated[
-        float, typer.Option(help="Least visual information fidelity of a compatible drawing.")
-    ] = Settings.fidelity,
     marks: Annotated[
         bool, typer.Option("--marks", help="Judge as the project's marks say: see [bold]shapewright mark[/].")
     ] = False,
+    fidelity: Annotated[
+        float, typer.Option(help="Least visual information fidelity of a compatible drawing.")
+    ] = Settings.fidelity,
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
     ] = "free",

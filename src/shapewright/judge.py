@@ -114,10 +114,10 @@ class Judge:
 
     def compatible(self, distances: Floats, iou: Floats, depth: Floats) -> NDArray[np.bool_]:
         """Which pairs count as the same: by the metric, where the settings have one, else by the threshold."""
-        metric = self.settings.metric
-        if metric is None:
+        learned = self.settings.metric
+        if learned is None:
             return np.asarray(distances <= self.settings.threshold)
-        return np.array([is_same(metric, *row) for row in zip(distances, iou, depth, strict=True)], dtype=bool)
+        return np.array([is_same(learned, *row) for row in zip(distances, iou, depth, strict=True)], dtype=bool)
 
     def groups(self, compatible: NDArray[np.bool_]) -> tuple[Group, ...]:
         """The references that are not compatible, by likeness to each other."""

@@ -92,11 +92,11 @@ class PictureJudge:
         return np.array(iou), np.full(len(builds), np.nan)
 
     def depths(self, builds: Sequence[Build]) -> Floats:
-        """(N,) NaN: drawings have no depth."""
+        """Drawings have no depth: NaN."""
         return np.full(len(builds), np.nan)
 
     def compatible(self, distances: Floats, iou: Floats, depth: Floats) -> NDArray[np.bool_]:
-        """Which pairs count as the same, by the threshold."""
+        """Which replicas are near enough."""
         return np.asarray(distances <= self.metric.threshold)
 
     def groups(self, compatible: NDArray[np.bool_]) -> tuple[Group, ...]:

@@ -20,9 +20,9 @@ class Result:
     parameters: in the procedure's units, None when nothing could be built. active: names of those that matter.
     at_limit: scalars that rest on an end of their Range. replica: the shape the procedure builds, in its own units.
     distance: by the iteration's metric, iou: of silhouettes, chamfer: in units of the largest extent, depth: difference
-    of depth pictures; NaN without a replica, the last two also for drawings. group: index into the iteration's groups,
-    None for a compatible reference. reference: the normalised shape, None in an iteration that was loaded. error: why
-    there is no replica.
+    of depth pictures; NaN without a replica, and the last two also for drawings. group: index into the iteration's
+    groups, None for a compatible reference. reference: the normalised shape, None in an iteration that was loaded.
+    error: why there is no replica.
     """
 
     name: str

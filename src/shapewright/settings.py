@@ -29,12 +29,13 @@ class Settings:
     what building shapes for that may cost for each reference, on one core (ten times as much when thorough). Procedures
     that take less than 10 ms a shape never reach it.
 
-    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18). metric: decides
-    instead, if given: bias and weights of distance, IoU and depth difference, learned from marks. fidelity: of a
-    drawing the least visual information fidelity (VIF), above which the paper counts from 0.05. cut: groups are
-    merged up to this share of the largest distance between incompatible references (paper: 0.4), or up to this
-    distance itself when cut_absolute. align: "free" compares in all rotations as the paper does, "upright" about the
-    up axis only.
+    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18); fidelity: of a
+    drawing instead the least visual information fidelity (VIF), above which the paper counts from 0.05. metric: decides
+    in place of the threshold, if given: bias and weights of distance, IoU and depth difference, learned from marks.
+
+    cut: groups are merged up to this share of the largest distance between incompatible references (paper: 0.4), or up
+    to this distance itself when cut_absolute. align: "free" compares in all rotations as the paper does, "upright"
+    about the up axis only.
 
     shape_seconds, shape_memory_mb: what building one shape may cost. workers: processes and threads; all cores by
     default.
@@ -62,8 +63,8 @@ class Settings:
     refine: Literal["off", "quick", "thorough"] = "quick"
     refine_seconds: float = 2.0
     threshold: float = 0.18
-    fidelity: float = 0.05
     metric: tuple[float, float, float, float] | None = None
+    fidelity: float = 0.05
     cut: float = 0.4
     cut_absolute: bool = False
     align: Literal["free", "upright"] = "free"

@@ -12,6 +12,7 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 from types import TracebackType
+from typing import Literal
 
 import cloudpickle
 
@@ -31,11 +32,18 @@ class Workers:
     The results are in the order asked for and do not depend on the number of workers.
     """
 
-    def __init__(self, procedure: Procedure, count: int | None = None, limits: Limits | None = None) -> None:
+    def __init__(
+        self,
+        procedure: Procedure,
+        count: int | None = None,
+        limits: Limits | None = None,
+        names: Literal["label", "rule"] = "label",
+    ) -> None:
+        """names: what faces that a split grammar made are labelled by."""
         self.procedure = procedure
         self.count = count or cores()
         self.limits = limits or Limits()
-        self._payload = _payload(procedure)
+        self._payload = _payload(procedure, names)
         self._idle: list[WorkerProcess] = []
         self._lock = threading.Lock()
 
@@ -169,11 +177,11 @@ def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:
         raise ProcedureError(f"every one of the first {len(probes)} shapes failed: {describe_failures(probes)}")
 
 
-def _payload(procedure: Procedure) -> bytes:
+def _payload(procedure: Procedure, names: str) -> bytes:
     if procedure.path:
-        return bytes(cloudpickle.dumps((f"{procedure.path}:{procedure.name}", list(sys.path))))
+        return bytes(cloudpickle.dumps((f"{procedure.path}:{procedure.name}", list(sys.path), names)))
     try:
-        return bytes(cloudpickle.dumps((procedure, list(sys.path))))
+        return bytes(cloudpickle.dumps((procedure, list(sys.path), names)))
     except Exception as error:
         raise ProcedureError(
             f"{procedure.where}: it cannot be sent to the worker processes ({error}); "

@@ -20,7 +20,7 @@ _ANSWER_WITHIN = 0.25
 
 def serve(connection: Connection) -> None:
     """Answer requests until the other side hangs up."""
-    target, search_path = pickle.loads(connection.recv_bytes())
+    target, search_path, names = pickle.loads(connection.recv_bytes())
     limits: Limits = connection.recv()
     sys.path[:] = search_path
     try:
@@ -30,9 +30,19 @@ def serve(connection: Connection) -> None:
         return
     limit_memory(limits.memory_mb)
     connection.send("ready")
-    while True:
-        requests: list[Parameters] = connection.recv()
-        connection.send(_build_some(procedure, requests, limits))
+    with _naming(names):
+        while True:
+            requests: list[Parameters] = connection.recv()
+            connection.send(_build_some(procedure, requests, limits))
+
+
+def _naming(names: str) -> contextlib.AbstractContextManager[None]:
+    """The grammar is loaded only where its rules are asked for."""
+    if names == "label":
+        return contextlib.nullcontext()
+    from shapewright.modelling.grammar import named_by
+
+    return named_by("rule")
 
 
 def _build_some(procedure: Procedure, requests: list[Parameters], limits: Limits) -> list[Build]:

@@ -25,6 +25,7 @@ _HELPS = 0.2  # share of the distance that a longer Range has to take away to be
 _BARELY = 0.8  # of the threshold
 _LACKING = 0.01  # share of the surface times distance, of a missing or surplus part that is beyond doubt
 _TOGETHER = 0.75  # of what lies apart within the space
+_CLOSE = 0.5  # of the threshold: nearer than shapes come that make up for something else
 _FAR = 1.25  # thresholds: an outlier that comes nearer than this is only an unusual shape
 
 
@@ -61,8 +62,8 @@ def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Ca
     """The causes for one incompatible reference, the chief one first.
 
     A search that ends below the threshold is no proof that nothing is missing: shapes grow fat to make up for parts
-    that they lack. So the surfaces have a say: other parameters or longer Ranges are the chief cause only when the
-    surfaces come together as well.
+    that they lack. So the surfaces have a say: other parameters or longer Ranges are the chief cause only when they
+    bring the shapes very close, or the surfaces together.
     """
     told = differences(found.residuals)
     parts = [Cause(part.kind, part.text, part.evidence) for part in told]
@@ -72,7 +73,8 @@ def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Ca
         barely = found.inside.distance > _BARELY * threshold
         return (*parts, overlooked) if barely and lacking else (overlooked,)
     ranges = _ranges(space, threshold, found.inside, found.outside)
-    if ranges and found.outside.distance <= threshold and found.outside_apart < _TOGETHER * found.laid_apart:
+    together = found.outside_apart < _TOGETHER * found.laid_apart or found.outside.distance <= _CLOSE * threshold
+    if ranges and found.outside.distance <= threshold and together:
         return ranges
     nearest = min(found.inside.distance, found.outside.distance)
     if found.isolation is not None and nearest > _FAR * threshold:

@@ -95,6 +95,15 @@ class _Text:
         return text.decode()
 
 
+def can_edit(source: str, procedure: str) -> bool:
+    """Whether the source is that of a file with the procedure at its top level."""
+    try:
+        _Text(source).function(procedure)
+    except (EditError, SyntaxError):
+        return False
+    return True
+
+
 def with_range(
     source: str, procedure: str, parameter: str, low: str | None, high: str | None, steps: str | None
 ) -> str:
@@ -241,7 +250,10 @@ def _returns(text: _Text, function: ast.FunctionDef, rule: NewRule) -> Iterator[
             assignment = f"    {name} = {rule.call.format(shape=name)}"
             if len(indent) + len(assignment) > _LINE:
                 opened, arguments = assignment[:-1].split("(", 1)
-                assignment = f"{opened}(\n{indent}        {arguments}\n{indent}    )"
+                inner = f"\n{indent}        "
+                if len(inner) + len(arguments) > _LINE:
+                    arguments = f",{inner}".join(arguments.split(", ")) + ","
+                assignment = f"{opened}({inner}{arguments}\n{indent}    )"
             lines += [assignment, f"return {name}"]
         yield _Change(start, end, f"\n{indent}".join(lines))
 

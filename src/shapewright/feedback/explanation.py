@@ -14,6 +14,7 @@ from shapewright.feedback.causes import Cause, Evidence, causes
 from shapewright.feedback.outliers import isolation, outliers
 from shapewright.feedback.placement import Overlay, place
 from shapewright.feedback.residuals import Region, Residuals, residuals
+from shapewright.feedback.rules import with_rules
 from shapewright.feedback.search import Found, Inferred, Searcher
 from shapewright.feedback.shared import Misfit, shared
 from shapewright.feedback.surface import Surface
@@ -26,7 +27,7 @@ from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
 from shapewright.settings import Settings
-from shapewright.shapes import Mesh
+from shapewright.shapes import Mesh, Shape
 from shapewright.threads import in_threads
 
 _DOUBT = 0.3  # probability of another class than the one that was found, where no predictor is known
@@ -94,12 +95,13 @@ def explain(
 
     procedure, references: those that the iteration was made with; further references are left alone. cache: a folder
     that keeps the references' descriptors. suggest: makes suggestions of what to write next. workers: processes and
-    threads, by default as in the iteration's settings. Raises KeyError for a collection that lacks a reference.
+    threads, by default as in the iteration's settings. Raises KeyError for a collection that lacks a reference, and
+    ValueError for a collection of drawings.
     """
-    settings = Settings.from_record({**iteration.settings.record(), **({"workers": workers} if workers else {})})
-    theirs = Collection(tuple(references[name] for name in iteration.names), source=references.source)
     if references.kind is not Mesh:
-        raise ValueError("only runs on meshes can be explained; this one is on drawings")
+        raise ValueError("only collections of meshes can be explained so far, not drawings")
+    settings = Settings.from_record({**iteration.settings.record(), **({"workers": workers} if workers else {})})
+    theirs = _as_found(references, iteration)
     stages = Stages(progress)
     with Workers(procedure, settings.workers, limits_of(settings)) as crew:
         stages.begin("describe", len(theirs))
@@ -107,11 +109,13 @@ def explain(
         stages.begin("differences", 3)
         found = _found(procedure, iteration, crew, judge)
         rows = sorted(found)
-        shapes = [mesh for row in rows if isinstance(mesh := theirs.references[row].shape, Mesh)]
+        shapes = [_mesh(theirs.references[row].shape) for row in rows]
         surfaces = dict(zip(rows, in_threads(Surface.of, shapes, settings.workers), strict=True))
         differences = _residuals(surfaces.values(), [found[row].mesh for row in rows], settings.workers)
         searcher = Searcher(procedure.space, crew, judge, settings.seed)
         stages.begin("causes", 4)
+        vectors = [found[row].parameters for row in rows]
+        differences = with_rules(procedure, vectors, differences, settings.workers, limits_of(settings))
         misfits = [row for row in rows if not iteration.results[row].compatible]
         why = _causes(searcher, surfaces, iteration.predictor, {row: found[row] for row in misfits}, stages)
         explained = {}
@@ -150,14 +154,18 @@ def _causes(
     if not rows:
         return {}
     before = list(found.values())
-    references = searcher.judge.references.references
-    shapes = [mesh for row in rows if isinstance(mesh := references[row].shape, Mesh)]
+    shapes = [_mesh(searcher.judge.references.references[row].shape) for row in rows]
     theirs = [surfaces[row] for row in rows]
     inferred = _inferred(searcher.space, predictor, shapes, before)
-    inside = searcher.longer(rows, inferred, before)
+    overlays = dict(zip(rows, _overlays(theirs, before, settings.workers), strict=True))
+    laid = searcher.laid(rows, inferred, before, overlays)
     stages.step(1, 4)
-    overlays = dict(zip(rows, _overlays(theirs, inside, settings.workers), strict=True))
-    laid = searcher.laid(rows, inferred, inside, overlays)
+    inside = [min(found, put, key=lambda each: each.distance) for found, put in zip(before, laid, strict=True)]
+    short = [i for i, best in enumerate(inside) if best.distance > searcher.threshold]
+    wanting = [rows[i] for i in short]
+    longer = searcher.longer(wanting, [column[short] for column in inferred], [inside[i] for i in short])
+    for i, best in zip(short, longer, strict=True):
+        inside[i] = best
     stages.step(2, 4)
     outside = dict(zip(rows, inside, strict=True))
     unsolved = [row for row in rows if outside[row].distance > searcher.threshold]
@@ -166,6 +174,8 @@ def _causes(
     alone = isolation(searcher.judge.descriptors, settings.align, settings.workers, settings.seed)
     strange = outliers(alone)
     differences = _residuals(theirs, [best.mesh for best in laid], settings.workers)
+    vectors = [best.parameters for best in laid]
+    differences = with_rules(searcher.crew.procedure, vectors, differences, settings.workers, searcher.crew.limits)
     told = {}
     for i, row in enumerate(rows):
         evidence = Evidence(
@@ -191,6 +201,18 @@ def _overlays(references: Sequence[Surface], known: Sequence[Found], threads: in
         return Overlay(reference, [place(reference, Surface.roughly(found.mesh.normalised()))[0]])
 
     return in_threads(overlay, list(zip(references, known, strict=True)), threads)
+
+
+def _as_found(references: Collection, iteration: Iteration) -> Collection:
+    """The references of an iteration in its order, turned as they were then."""
+    turned = iteration.metrics.get("turned", {})
+    theirs = Collection(tuple(references[name] for name in iteration.names), source=references.source)
+    return theirs.turned([turned.get(name, 0) // 90 for name in theirs.names]) if turned else theirs
+
+
+def _mesh(shape: Shape) -> Mesh:
+    assert isinstance(shape, Mesh)
+    return shape
 
 
 def _found(procedure: Procedure, iteration: Iteration, crew: Workers, judge: Judge) -> dict[int, Found]:

@@ -55,7 +55,7 @@ class Piece:
         """What an author might call it."""
         width, height, depth = self.size
         if self.kind.startswith("slats"):
-            return "slats"
+            return "rails" if self.kind == "slats y" else "spindles"
         several = "s" if any(self.mirrored) else ""
         return _noun(self.kind, self.thin, height / max(width, depth), width >= depth) + several
 

@@ -13,6 +13,8 @@ from shapewright.shapes import Floats, Mesh, Transform
 
 FURTHEST = 0.05
 """Distances beyond count as this: what has no counterpart must not pull."""
+UNIT = 100.0
+"""A residual of FURTHEST, for a search that takes a fifth of that as small."""
 _POINTS = 160
 _CLOSE = 0.006  # mean distance at which no other place is tried
 _BETTER = 0.85  # what another place must reach of the cost in the middle
@@ -51,12 +53,12 @@ def place(reference: Surface, replica: Surface) -> tuple[Fit, Transform]:
     bounds, own = _bounds(reference), _bounds(replica)
     theirs, ours = _thinned(reference), _thinned(replica)
     best = MIDDLE
-    least = _apart(reference, replica, theirs, ours, best.transform(bounds, own))
+    least = float(_gaps(reference, replica, theirs, ours, best.transform(bounds, own)).mean())
     if least < _CLOSE:
         return best, best.transform(bounds, own)
     least *= _BETTER
     for fit in _different(bounds, own):
-        cost = _apart(reference, replica, theirs, ours, fit.transform(bounds, own))
+        cost = float(_gaps(reference, replica, theirs, ours, fit.transform(bounds, own)).mean())
         if cost < least:
             best, least = fit, cost
     return best, best.transform(bounds, own)
@@ -75,22 +77,32 @@ class Overlay:
 
     def __call__(self, replica: Mesh) -> float:
         """The cost, in units of the largest extent: 0 to FURTHEST; infinite for a replica without area."""
+        residual = self.residual(replica)
+        return np.inf if residual is None else float(residual.mean()) * FURTHEST / UNIT
+
+    def residual(self, replica: Mesh) -> Floats | None:
+        """What the cost is the mean of, (K,): distances of points of both surfaces, UNIT for FURTHEST and beyond.
+
+        None for a replica without area, or one whose extents have next to nothing of the reference's.
+        """
         try:
             surface = Surface.roughly(replica.normalised(), 1000)
         except ValueError:
-            return np.inf
+            return None
         own = _bounds(surface)
         transforms = [fit.transform(self._bounds, own) for fit in self._fits]
-        few = surface.points[::4]
         allowed = [t for t in transforms if _SCALES[0] < t.scale < _SCALES[1]]
-        return min(_apart(self._reference, surface, self._points, few, t) for t in allowed)
+        found = [_gaps(self._reference, surface, self._points, surface.points[::4], t) for t in allowed]
+        return min(found, key=lambda gaps: float(gaps.sum())) * (UNIT / FURTHEST)
 
 
-def _apart(reference: Surface, replica: Surface, theirs: Floats, ours: Floats, transform: Transform) -> float:
-    """Mean of the distances there and back of points of two surfaces, none of them beyond FURTHEST."""
+def _gaps(reference: Surface, replica: Surface, theirs: Floats, ours: Floats, transform: Transform) -> Floats:
+    """Distances there and back of points of two surfaces, none beyond FURTHEST; both sides count the same."""
     there = transform.scale * replica.distance(transform.invert(theirs))
     back = reference.distance(transform.apply(ours))
-    return float(np.minimum(there, FURTHEST).mean() + np.minimum(back, FURTHEST).mean()) / 2.0
+    half = (len(there) + len(back)) / 2.0
+    sides = (np.minimum(there, FURTHEST) * (half / len(there)), np.minimum(back, FURTHEST) * (half / len(back)))
+    return np.concatenate(sides)
 
 
 def _different(theirs: Floats, ours: Floats) -> Iterator[Fit]:

@@ -92,8 +92,9 @@ def frames_of(replica: Mesh, always: Sequence[str]) -> Frames:
 
 
 def _wider(source: str, procedure: str, space: ParameterSpace, misfits: Sequence[Misfit]) -> Iterator[Proposal]:
-    ends = Counter(end for misfit in misfits for end in pressed(space, misfit.parameters))
-    common = [end for end, count in ends.most_common(6) if count >= max(2, 0.05 * len(misfits))]
+    ends = Counter(end for misfit in misfits for end in sorted(pressed(space, misfit.parameters)))
+    least = max(2, 0.05 * len(misfits))
+    common = [end for end, count in ends.most_common(8) if count >= least and _goes_on(space[end[0]], end[1])][:6]
     for chosen in dict.fromkeys([*((end,) for end in common), tuple(common)]):
         if not chosen:
             continue
@@ -108,6 +109,13 @@ def _wider(source: str, procedure: str, space: ParameterSpace, misfits: Sequence
         title = f"A wider Range of {_listed(names)}"
         starts: dict[int, Parameters] = {m.row: {} for m in members}
         yield Proposal("range", title, write, wide, starts, 0.6 * len(members) - 0.1 * len(chosen), ends=chosen)
+
+
+def _goes_on(parameter: Parameter, side: str) -> bool:
+    """Whether a Range has anywhere to go: one that starts at 0 does not start earlier."""
+    low, high, _ = _long(parameter, {side})
+    assert isinstance(parameter, Scalar | Integer)
+    return low < parameter.low or high > parameter.high
 
 
 def _widened(source: str, procedure: str, space: ParameterSpace, ranges: Ranges) -> str:
@@ -143,7 +151,7 @@ def _long(parameter: Parameter, sides: set[str]) -> tuple[float, float, float]:
         low = max(low, parameter.low / 4.0 if isinstance(parameter, Scalar) else min(parameter.low, 1))
     return (
         low if "low" in sides else parameter.low,
-        parameter.high + span if "high" in sides else parameter.high,
+        parameter.high + (2.0 * span if isinstance(parameter, Scalar) else span) if "high" in sides else parameter.high,
         parameter.default,
     )
 
@@ -190,9 +198,9 @@ def _rules(source: str, procedure: str, misfits: Sequence[Misfit], always: Seque
         bare = [(m, h) for m, h in pairs if not h.pieces]
         drawn = [(m, h) for m, h in bare if h.inset == (label,)]
         if drawn and label in always:
-            scales = [h.scale for _, h in drawn]
+            scales, frames = [h.scale for _, h in drawn], [frames_of(m.replica, ()) for m, _ in drawn]
             rule = drawing_in(
-                label, scales, partial(free_name, source, procedure), f"The {label}, nearer to the middle."
+                label, scales, frames, partial(free_name, source, procedure), f"The {label}, nearer to the middle."
             )
             ranges = {q.name: (0.3, 1.1, 1.0) for q in rule.quantities}
             yield _proposal("moved part", f"The {label} nearer to the middle", source, procedure, rule, ranges, drawn)
@@ -215,7 +223,7 @@ def _with_pieces(
     rest: bool,
 ) -> Iterator[Proposal]:
     """Rules for the pieces that are commonest among hypotheses that take the same part away, or none."""
-    counts = Counter(key for _, h in pairs for key in {_form(piece) for piece in h.pieces})
+    counts = Counter(key for _, h in pairs for key in dict.fromkeys(_form(piece) for piece in h.pieces))
     common = [key for key, count in counts.most_common(5) if count >= max(1, _SHARED * len(pairs))]
     chosen_sets = [tuple(common[:k]) for k in range(1, min(_MOST_PIECES, len(common)) + 1)]
     chosen_sets += [(key,) for key in common[1:]]

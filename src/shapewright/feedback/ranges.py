@@ -47,7 +47,7 @@ def pressed(space: ParameterSpace, parameters: Parameters) -> set[End]:
 
 
 def widened(space: ParameterSpace) -> ParameterSpace:
-    """The space with every Range three times as long; what starts above 0 stays above 0, what starts at 0 stays."""
+    """The space with every Range longer, by once its length below and twice above; nothing from 0 on comes below 0."""
     return ParameterSpace(tuple(_wide(parameter) for parameter in space))
 
 
@@ -90,7 +90,7 @@ def _wide(parameter: Parameter) -> Parameter:
         low = parameter.low - span
         if parameter.low >= 0.0:
             low = max(low, parameter.low / 4.0)
-        return replace(parameter, low=low, high=parameter.high + span, steps=None)
+        return replace(parameter, low=low, high=parameter.high + 2.0 * span, steps=None)
     if isinstance(parameter, Integer):
         span = max(parameter.high - parameter.low, 2)
         low = parameter.low - span if parameter.low < 0 else max(parameter.low - span, min(parameter.low, 1))

@@ -14,21 +14,22 @@ from shapewright.feedback.placement import Overlay
 from shapewright.feedback.ranges import End, inside, limits, pressed, widened
 from shapewright.feedback.ranges import beyond as wishes_of
 from shapewright.judge import Judge
-from shapewright.parameters import Integer, Parameters, ParameterSpace
-from shapewright.prediction.evolution import Budget, Measure, refine
-from shapewright.shapes import Mesh
+from shapewright.parameters import Integer, Parameters, ParameterSpace, Scalar
+from shapewright.prediction.refinement import Budget, Measure, Round, refine
+from shapewright.shapes import Floats, Mesh, Shape
 from shapewright.threads import in_threads
 
 Overlays = Mapping[int, Overlay]
 Inferred = Sequence[NDArray[np.float32]]
 
-FIRST = Budget(((12, 1), (4, 4), (2, 8), *((1, 8),) * 5))
-LONGER = Budget(((16, 1), (6, 4), (3, 8), (2, 12), *((1, 12),) * 16))
-LAID = Budget(((6, 2), (3, 6), (2, 8), *((1, 8),) * 5))
-WIDE = Budget(((3, 2), (2, 6), *((1, 8),) * 6))
-EVALUATIONS = 12_000
+FIRST = Budget((Round(8), Round(3), *(Round(2, 2, 5),) * 2, *(Round(1, 2, 5),) * 4))
+LONGER = Budget((Round(12), Round(6), *(Round(3, 2, 6),) * 2, *(Round(2, 2, 6),) * 3, *(Round(1, 2, 8),) * 8))
+LAID = Budget((Round(6), Round(3), *(Round(2, 2, 6),) * 2, *(Round(1, 2, 6),) * 5))
+WIDE = Budget((Round(3), Round(2), Round(2, 2, 5), *(Round(1, 2, 5),) * 5))
+EVALUATIONS = 10_000
 """Shapes built for all references together, about: few misfits are searched for longer than many."""
 _ENOUGH = 0.9  # of the threshold: in the pose they share, distances are upper bounds of what is judged
+_CLOSE = 0.4  # of the threshold: beyond a Range the surfaces have to come together as well
 _PROMISING = 1.4  # of the threshold
 _LEVEL = 0.1  # rise of the distance that is not worth a longer Range
 
@@ -63,10 +64,10 @@ class Searcher:
 
         inferred: what the predictor says, for these rows.
         """
-        best = self._search(rows, inferred, known, FIRST.within(0.3 * EVALUATIONS / max(len(rows), 1)))
+        best = self._search(rows, inferred, known, self._within(FIRST, 0.45, len(rows)))
         near = [i for i, found in enumerate(best) if self.threshold < found.distance <= _PROMISING * self.threshold]
         if near:
-            budget = LONGER.within(0.3 * EVALUATIONS / len(near))
+            budget = self._within(LONGER, 0.4, len(near))
             more = self._search([rows[i] for i in near], [c[near] for c in inferred], [best[i] for i in near], budget)
             for i, found in zip(near, more, strict=True):
                 best[i] = found
@@ -81,8 +82,8 @@ class Searcher:
             self.space,
             inferred,
             self.crew,
-            lambda pairs: in_threads(lambda p: overlays[rows[p[0]]](p[1]), pairs, self.judge.settings.workers),
-            LAID.within(0.25 * EVALUATIONS / max(len(rows), 1)),
+            self._overlaid(rows, overlays),
+            self._within(LAID, 0.55, len(rows)),
             self.seed,
             [found.parameters for found in known],
             spread=0.2,
@@ -117,7 +118,7 @@ class Searcher:
         return [_found(build, d) for build, d in zip(builds, self.judge.distances(builds, rows), strict=True)]
 
     def _search(
-        self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found], budget: Budget, spread: float = 0.08
+        self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found], budget: Budget, spread: float = 0.15
     ) -> list[Found]:
         vectors = refine(
             self.space,
@@ -139,12 +140,12 @@ class Searcher:
             [_guess(wide, column, known, ends) for column in range(len(wide))],
             self.crew,
             self._measure(rows),
-            WIDE.within(0.2 * EVALUATIONS / len(rows)),
+            self._within(WIDE, 0.4, len(rows)),
             self.seed,
             [found.parameters for found in known],
             within=limits(self.space, wide, ends),
             spread=0.06,
-            enough=_ENOUGH * self.threshold * RAW_SCALE,
+            enough=_CLOSE * self.threshold * RAW_SCALE,
         )
         return self._nearer(rows, vectors, known)
 
@@ -166,7 +167,18 @@ class Searcher:
         return wide > self.threshold and distance - wide <= _LEVEL * (before - wide)
 
     def _measure(self, rows: Sequence[int]) -> Measure:
-        return lambda pairs: self.judge.search_costs([(rows[i], mesh) for i, mesh in pairs])
+        return lambda pairs: self.judge.search_residuals([(rows[i], shape) for i, shape in pairs])
+
+    def _overlaid(self, rows: Sequence[int], overlays: Overlays) -> Measure:
+        def residual(pair: tuple[int, Shape]) -> Floats | None:
+            return overlays[rows[pair[0]]].residual(pair[1]) if isinstance(pair[1], Mesh) else None
+
+        return lambda pairs: in_threads(residual, pairs, self.judge.settings.workers)
+
+    def _within(self, budget: Budget, share: float, references: int) -> Budget:
+        """What the references' part of a share of all evaluations pays for."""
+        scalars = sum(isinstance(parameter, Scalar) for parameter in self.space)
+        return budget.within(share * EVALUATIONS / max(references, 1), scalars)
 
     def _nearer(self, rows: Sequence[int], vectors: Sequence[Parameters], known: Sequence[Found]) -> list[Found]:
         """The nearer of what was known and what these vectors give."""

@@ -13,13 +13,13 @@ from scipy.sparse.csgraph import connected_components
 
 from shapewright.building import Workers
 from shapewright.feedback.cards import Example, card
-from shapewright.feedback.edit import EditError, parameter_line, snippet
+from shapewright.feedback.edit import EditError, can_edit, parameter_line, snippet
 from shapewright.feedback.explanation import Explained
 from shapewright.feedback.hypotheses import Hypothesis, hypotheses
 from shapewright.feedback.proposals import Misfit, Proposal, Ranges, narrowed, proposals
-from shapewright.feedback.trial import GLANCE, LOOK, SEARCH, Trial, changed, tried, unchanged
+from shapewright.feedback.trial import GLANCE, LOOK, PEEK, SEARCH, Trial, changed, tried, unchanged
 from shapewright.judge import Judge
-from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.procedure import Procedure, ProcedureError
 from shapewright.progress import Stages
 from shapewright.shapes import Mesh
@@ -94,7 +94,7 @@ def suggest(
     """
     stages = stages or Stages(None)
     explained = {each.row: each for each in wanting if each.nearest.distance > judge.settings.threshold}
-    if not explained or not procedure.source:
+    if not explained or not can_edit(procedure.source, procedure.name):
         return ()
     stages.begin("hypotheses", 1)
     misfits = _misfits(list(explained.values()), judge)
@@ -144,13 +144,13 @@ def _glanced(
 ) -> list[Proposal]:
     """The proposals that bring most to a few of the misfits they are for, best first."""
     scores: list[tuple[float, int, Proposal]] = []
-    spent = 0
+    spent, each = 0, GLANCE.evaluations(_scalars(procedure.space))
     for number, idea in enumerate(ideas):
         members = [misfit for misfit in misfits if misfit.row in idea.starts]
         some = [members[i] for i in sorted({int(i) for i in np.linspace(0, len(members) - 1, _GLANCES)})]
-        if spent + len(some) * GLANCE.evaluations > 0.4 * EVALUATIONS:
+        if spent + len(some) * each > 0.4 * EVALUATIONS:
             break
-        spent += len(some) * GLANCE.evaluations
+        spent += len(some) * each
         try:
             with changed(idea.write(idea.ranges), procedure, judge) as new:
                 if not unchanged(new, known):
@@ -163,6 +163,10 @@ def _glanced(
     return [idea for _, _, idea in sorted(scores, key=lambda score: score[:2])]
 
 
+def _scalars(space: ParameterSpace) -> int:
+    return sum(isinstance(parameter, Scalar) for parameter in space)
+
+
 def _nearness(trial: Trial, row: int) -> float:
     """1 for a compatible reference, less the further it is, 0 from twice the threshold on."""
     distance = trial.distances.get(row, np.inf)
@@ -173,16 +177,19 @@ def _confirmed(
     procedure: Procedure, ideas: Sequence[Proposal], misfits: Sequence[Misfit], judge: Judge
 ) -> list[_Tried]:
     """The proposals that make references compatible, with the Ranges that these need."""
-    found = []
-    left = 0.6 * EVALUATIONS
+    found: list[_Tried] = []
+    peek, look, search = (budget.evaluations(_scalars(procedure.space)) for budget in (PEEK, LOOK, SEARCH))
+    most, left = int(0.5 * EVALUATIONS / _CONFIRMED / peek), 0.6 * EVALUATIONS
     for idea in ideas[:_CONFIRMED]:
         first = [m for m in misfits if m.row in idea.starts]
         others = [m for m in misfits if m.row not in idea.starts]
-        affordable = max(len(first), int(left / _CONFIRMED / LOOK.evaluations))
-        some = (first + others)[:affordable]
+        some = (first + others)[: max(_GLANCES, most)]
+        left -= peek * len(some) + (look + search / 2) * min(len(first), len(some))
+        if left < 0.0 and len(found) > 1:
+            break
         starts = {m.row: idea.start(m) for m in some}
         with changed(idea.write(idea.ranges), procedure, judge) as new:
-            trial = tried(new, starts, judge, [LOOK, SEARCH], judge.settings.seed)
+            trial = tried(new, starts, judge, [PEEK, LOOK, SEARCH], judge.settings.seed)
         made = {row: trial.parameters[row] for row in trial.compatible}
         if not made or _falls_apart(trial, {m.row: m.replica for m in some}):
             continue

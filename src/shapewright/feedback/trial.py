@@ -15,14 +15,15 @@ from shapewright.building import Limits, Workers
 from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
-from shapewright.prediction.evolution import Budget, refine
+from shapewright.prediction.refinement import Budget, Round, refine
 from shapewright.procedure import Procedure, load_procedure
 from shapewright.shapes import Mesh
 
-GLANCE = Budget(((2, 1), (1, 6), (1, 8), (1, 8)))
-LOOK = Budget(((3, 1), (2, 6), (1, 10), (1, 10)))
-SEARCH = Budget(((2, 2), *((1, 10),) * 9))
-_PROMISING = 1.6  # thresholds: what a first look leaves further away is not searched for
+PEEK = Budget((Round(1), Round(1), Round(1, 2, 4)))
+GLANCE = Budget((Round(2), Round(1), *(Round(1, 2, 4),) * 2))
+LOOK = Budget((Round(3), Round(2), *(Round(1, 2, 6),) * 2))
+SEARCH = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9))
+_PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
 _ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
 _SPREAD = 0.1
 
@@ -158,7 +159,7 @@ def _refined(
         space,
         _as_inferred(space, vectors),
         crew,
-        lambda pairs: judge.search_costs([(rows[i], mesh) for i, mesh in pairs]),
+        lambda pairs: judge.search_residuals([(rows[i], shape) for i, shape in pairs]),
         budget,
         seed,
         spread=_SPREAD,

@@ -148,7 +148,7 @@ def addition(
     if inset is not None:
         factor = free(f"{stem}_inset")
         quantities.append(Quantity(factor, tuple(inset)))
-        rest = f"{rest}.scale(({factor}, 1, {factor}))"
+        rest = f"{rest}.scale(({factor}, 1, {factor}){_about(frames)})"
     body.append(f"return {' | '.join([rest, *names])}")
     verb = "replace" if removed else "add"
     name = free(f"{verb}_{_plain(removed[0])}" if removed else f"{verb}_{stem}")
@@ -161,7 +161,13 @@ def addition(
     return Rule(name, stem, text, call, tuple(quantities), tuple(dict.fromkeys(imports)))
 
 
-def drawing_in(label: str, scales: Sequence[tuple[float, float]], free: Callable[[str], str], note: str) -> Rule:
+def drawing_in(
+    label: str,
+    scales: Sequence[tuple[float, float]],
+    frames: Sequence[Frames],
+    free: Callable[[str], str],
+    note: str,
+) -> Rule:
     """A rule that draws a part in towards the middle, along x and z."""
     plain = _plain(label)
     quantities = tuple(
@@ -172,7 +178,7 @@ def drawing_in(label: str, scales: Sequence[tuple[float, float]], free: Callable
     lines = [
         f"def {name}(shape, {x}, {z}):",
         f'"""{note}"""',
-        f"return shape.without({_quoted(label)}) | shape.part({_quoted(label)}).scale(({x}, 1, {z}))",
+        f"return shape.without({_quoted(label)}) | shape.part({_quoted(label)}).scale(({x}, 1, {z}){_about(frames)})",
     ]
     return Rule(name, None, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
 
@@ -181,6 +187,13 @@ def removal(label: str, free: Callable[[str], str]) -> Rule:
     """A rule that makes a part optional."""
     flag = free(f"with_{_plain(label)}")
     return Rule(flag, flag, "", f"{{shape}}.without({_quoted(label)})", (), ())
+
+
+def _about(frames: Sequence[Frames]) -> str:
+    """The argument that makes the shape's middle the one that stays, where that is not the origin."""
+    wholes = [each[WHOLE] for each in frames]
+    centred = all(np.abs(whole.sum(axis=0)[[0, 2]]).max() < 2e-3 * np.ptp(whole, axis=0).max() for whole in wholes)
+    return "" if centred else ", about=shape.bounds.mean(axis=0)"
 
 
 def _best_frame(several: Sequence[Piece], frames: Sequence[Frames]) -> tuple[str, tuple[_Along, ...]]:
@@ -310,7 +323,8 @@ def _piece_lines(
         count = asked[-1].name
         # The gaps shrink with the count, so that any number of slats fits.
         part = float(np.median([piece.gap * piece.count for piece in several]))
-        gap = f"{number(part)} * ({sizes['xyz'.index(kind[-1])]}) / {count}"
+        across = sizes["xyz".index(kind[-1])]
+        gap = f"{number(part)} * {across if across.isidentifier() else f'({across})'} / {count}"
     middles = [f"({low} + {high}) / 2" for low, high in zip(*_CORNERS, strict=True)]
     copies = ""
     for letter, on, axis in (("x", mirrored[0], 0), ("z", mirrored[1], 2)):

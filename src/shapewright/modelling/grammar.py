@@ -26,6 +26,8 @@ from __future__ import annotations
 import inspect
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from functools import cached_property
 from types import SimpleNamespace
@@ -43,11 +45,22 @@ from shapewright.shapes import Floats, Mesh
 __all__ = ["SIDES", "Box", "Derivation", "Grammar", "GrammarError", "Node", "Rule", "Side", "share"]
 
 DEPTH, BOXES = 64, 20_000
+_naming: ContextVar[Literal["label", "rule"]] = ContextVar("naming", default="label")
 F = TypeVar("F", bound=Callable[..., Any])
 
 
 class GrammarError(ValueError):
     """A grammar that cannot be right, or a rule that cannot be applied; the message names the rule and the box."""
+
+
+@contextmanager
+def named_by(names: Literal["label", "rule"]) -> Iterator[None]:
+    """What meshes and solids of derivations are labelled by, inside the block, where they are not told."""
+    token = _naming.set(names)
+    try:
+        yield
+    finally:
+        _naming.reset(token)
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,8 +191,8 @@ class Derivation:
         """How often each rule was applied."""
         return Counter(node.rule for node in self.root if node.rule)
 
-    def mesh(self, by: Literal["label", "rule"] = "label", join: bool = True) -> Mesh:
-        """The shape: one closed surface, each face labelled with its label or with the rule that made it.
+    def mesh(self, by: Literal["label", "rule"] | None = None, join: bool = True) -> Mesh:
+        """The shape: one closed surface, each face labelled with its label (the default) or the rule that made it.
 
         join: unite all boxes, so that the mesh is sound; False leaves each its own closed surface, which takes less
         time and looks the same from outside.
@@ -187,13 +200,13 @@ class Derivation:
         from shapewright.modelling import assembly  # compiled code, which takes a while to load
 
         make = assembly.mesh if join else assembly.apart
-        return make(self._leaves(), self.tolerance, by == "rule")
+        return make(self._leaves(), self.tolerance, (by or _naming.get()) == "rule")
 
-    def solid(self, by: Literal["label", "rule"] = "label") -> Solid:
+    def solid(self, by: Literal["label", "rule"] | None = None) -> Solid:
         """The shape as a solid of the kit, to go on with."""
         from shapewright.modelling.assembly import joined
 
-        return joined(self._leaves(), self.tolerance, by == "rule")
+        return joined(self._leaves(), self.tolerance, (by or _naming.get()) == "rule")
 
     def part(self, name: str) -> Solid:
         """The boxes that bear a label, as a solid: ``part("top").bounds``. Raises ValueError when there is none."""

@@ -1,0 +1,66 @@
+import pytest
+
+import shapewright as sw
+from shapewright.building import Workers
+from shapewright.feedback.trial import GLANCE, SEARCH, changed, tried, unchanged
+from shapewright.judge import Judge
+from shapewright.modelling.solids import box
+from shapewright.procedure import ProcedureError
+
+POST = """from typing import Annotated
+from shapewright import Range, procedure
+from shapewright.modelling.solids import box
+
+@procedure
+def post(height: Annotated[float, Range(0.2, 1.0)] = 0.6, wide: bool = False):
+    return box((0.5, height, 0.2 if wide else 0.1))
+"""
+
+
+@pytest.fixture
+def post(tmp_path):
+    path = tmp_path / "post.py"
+    path.write_text(POST)
+    return sw.load_procedure(path)
+
+
+@pytest.fixture
+def judge():
+    shapes = {"low": box((0.5, 0.5, 0.1)).mesh(), "tall": box((0.5, 3.0, 0.1)).mesh()}
+    return Judge.of(sw.Collection.of(shapes), sw.Settings(workers=1))
+
+
+START = {"height": 0.8, "wide": False}
+
+
+def test_a_trial_searches_each_reference_and_judges_it(post, judge):
+    with Workers(post, 1) as crew:
+        first = tried(crew, {0: START, 1: START}, judge, [GLANCE, SEARCH])
+        again = tried(crew, {0: START, 1: START}, judge, [GLANCE, SEARCH])
+        only = tried(crew, {1: START}, judge, [])
+    assert first.parameters == again.parameters and first.distances == again.distances
+    assert first.compatible == (0,) and first.distances[1] < only.distances[1]
+    assert only.parameters == {1: START} and first.parameters[1]["height"] > 0.95
+    assert only.joined(first).distances == first.distances
+
+
+def test_a_changed_procedure_lives_as_long_as_the_trial(post, judge):
+    with changed(POST.replace("1.0)]", "4.0)]"), post, judge) as crew:
+        path = crew.procedure.path
+        found = tried(crew, {1: START}, judge, [GLANCE, SEARCH])
+        assert found.compatible == (1,) and found.parameters[1]["height"] > 1.5 and path.exists()
+    assert not path.exists()
+    with pytest.raises(ProcedureError), changed("nothing here", post, judge):
+        pass
+
+
+def test_what_was_built_before_stays_as_it_was(post, judge):
+    known = [(START, post(**START))]
+    with Workers(post, 1) as crew:
+        assert unchanged(crew, known)
+    with changed(POST.replace("0.1))", "0.15))"), post, judge) as crew:
+        assert not unchanged(crew, known)
+    with changed(POST.replace("return box", "return box((0.1, height / 2, 0.05)) | box"), post, judge) as crew:
+        assert unchanged(crew, known)
+    with changed(POST.replace("return box", "raise ValueError; return box"), post, judge) as crew:
+        assert not unchanged(crew, known)
