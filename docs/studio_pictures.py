@@ -94,6 +94,7 @@ def difference(visit: Visit) -> None:
     tiles = visit.studio.get("/api/state")["collection"]["tiles"]
     visit.open(max((tile for tile in tiles if tile["distance"] is not None), key=lambda tile: tile["distance"])["slug"])
     visit.page.click("text=Difference")
+    visit.page.wait_for_selector(".sheet .agrees", state="attached")
 
 
 def keys(visit: Visit) -> None:
@@ -144,10 +145,10 @@ def prepare_flat(folder: Path) -> None:
     command = [sys.executable, "-m", "shapewright", "silhouettes", str(folder / "bundled")]
     subprocess.run([*command, "--out", str(folder / "references")], check=True, stdout=subprocess.DEVNULL)
     shutil.copy(ROOT / "examples" / "drawings" / "v5.py", folder / "procedure.py")
-    with studio(folder, *SETTINGS) as started:
+    with studio(folder, "--workers", "1") as started:
         started.wait_for(ready)
         started.send("POST", "/api/fit", {"fresh": True}, 202)
-        started.wait_for(rested, 900)
+        started.wait_for(rested, 1800)
 
 
 def take(started: Studio, browser: Any, name: str) -> None:
