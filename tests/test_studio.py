@@ -19,6 +19,7 @@ import trimesh
 
 from shapewright.procedure import load_procedure
 from shapewright.studio.frames import parse
+from shapewright.studio.project import Project
 from studio_client import PROCEDURE, Studio, ready, studio
 
 FIT = ("--samples", "40", "--epochs", "1", "--refine", "off", "--workers", "1", "--time-limit", "1")
@@ -242,6 +243,35 @@ def test_error_of_a_shape_has_its_line(mended: Studio) -> None:
     assert broken.splitlines()[failed["problem"]["line"] - 1].strip().startswith("raise KeyError")
     mended.say(type="evaluate", id=101, slug=None, parameters={"shelf": False})
     mended.next(lambda m: m["type"] == "mesh" and m["id"] == 101)
+
+
+def test_version_that_fails_for_every_shape_keeps_what_was_there(mended: Studio) -> None:
+    pictures = [tile["replica"] for tile in mended.get("/api/state")["collection"]["tiles"]]
+    mended.edit(
+        PROCEDURE.replace("    top = box", '    raise Infeasible("too wide")\n    top = box').replace(
+            "Range,", "Infeasible, Range,"
+        )
+    )
+    state = mended.wait_for(lambda s: any(p["count"] == 5 for p in s["problems"]))
+    (problem,) = state["problems"]
+    assert problem["kind"] == "infeasible" and len(problem["slugs"]) == 5 and "too wide" in problem["message"]
+    tiles = state["collection"]["tiles"]
+    assert [tile["replica"] for tile in tiles] == pictures and all(tile["stale"] for tile in tiles)
+
+
+def test_only_files_that_the_procedure_names_are_its_sources(mended: Studio) -> None:
+    project = Project.of(mended.folder)
+    before = project.fingerprint()
+    (mended.folder / "unrelated.py").write_text("x = 1")
+    assert project.fingerprint() == before
+    mended.edit("import helper_of_helper as h\n" + PROCEDURE, "broken")
+    named = project.fingerprint()
+    (mended.folder / "helper_of_helper.py").write_text("import third")
+    (mended.folder / "third.py").write_text("")
+    mended.wait_for(lambda s: s["procedure"]["state"] == "good")
+    whole = project.fingerprint()
+    (mended.folder / "third.py").write_text("y = 2")
+    assert len({before, named, whole, project.fingerprint()}) == 4
 
 
 def test_endless_loop_costs_a_message_with_its_line(mended: Studio) -> None:
