@@ -2,7 +2,7 @@
 
     python docs/gallery.py                  hundreds, of the last version of each: docs/pictures/gallery.png
     python docs/gallery.py table            of each version: docs/pictures/categories/table/v1.png and so on
-    python docs/gallery.py table --run DIR  the replicas in a run's folder: docs/pictures/categories/table/DIR.png
+    python docs/gallery.py table --run DIR  the replicas of a run, if compatible: .../table/DIR-replicas.png
 
 Options: --seed N. A category that is not in examples/ yet is left out.
 """
@@ -61,7 +61,7 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     if arguments.run:
         replicas = [result.replica for result in Iteration.load(arguments.run) if result.compatible and result.replica]
-        pictures = {arguments.run.name: replicas}
+        pictures = {f"{arguments.run.name}-replicas": replicas}
     else:
         pictures = {path.stem: samples(path, 36, arguments.seed) for path in versions[arguments.category]}
     for name, meshes in pictures.items():
@@ -95,7 +95,7 @@ def draw(shapes: Sequence[tuple[Mesh, str]], columns: int, seed: int) -> Image.I
     for (_, colour, cover), area in zip(tiles, areas(canvas, columns), strict=False):
         area += colour - area * cover[..., None]
     inner = canvas[border // 4 : -border // 4, border // 4 : -border // 4]
-    return Image.fromarray(inner.round().astype(np.uint8)).quantize(128)
+    return Image.fromarray(inner.round().astype(np.uint8)).quantize(256)
 
 
 def areas(canvas: Floats, columns: int) -> Iterator[Floats]:

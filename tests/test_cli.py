@@ -93,6 +93,10 @@ def test_evaluate_prints_a_row_for_each_parameter(project):
     assert ["height", "scalar", "MAE"] in rows and ["foot", "binary", "F1"] in rows
     record = last_json(shapewright("evaluate", "stool.py", *QUICK, "--refine", "off", "--json", cwd=project))
     assert set(record["parameters"]["height"]) == {"network"} and len(record["seconds"]) == 1
+    compared = ("evaluate", "stool.py", *QUICK, "--refine", "off", "--compare", "cameras", "--json")
+    found = last_json(shapewright(*compared, cwd=project))["variants"]
+    assert [variant["cameras"] for variant in found] == ["fixed", "learned"]
+    assert all("height" in variant["parameters"] for variant in found)
 
 
 def test_sample_writes_shapes_and_their_parameters(project):

@@ -130,6 +130,11 @@ def test_errors_name_the_function_and_the_argument(make, message):
         make()
 
 
+def test_parts_that_touch_but_for_rounding_are_one():
+    stem = box((0.2, 0.7), at=(0, 0.35)) | box((1, 0.1), at=(0, 0.7 + 0.1 / 2 + 1e-15))
+    assert stem.drawing().geometry.geom_type == "Polygon"
+
+
 def test_only_sketches_are_joined_to_sketches():
     with pytest.raises(TypeError):
         box(1) | 3

@@ -6,6 +6,7 @@ import torch
 
 import shapewright as sw
 from shapewright import Range
+from shapewright.evaluation import variants
 from shapewright.modelling.solids import box
 from shapewright.parameters import ParameterSpace, Scalar
 from shapewright.prediction.dataset import make_dataset
@@ -40,6 +41,15 @@ def test_intervals_of_a_laplace_distribution_hold_their_share():
     narrow = score(space, [predicted], truth, active, [spread / 4])["s"]
     assert narrow["within50"] < 0.3 and narrow["within90"] < 0.6
     assert "within50" not in score(space, [predicted], truth, active)["s"]
+
+
+def test_variants_are_all_combinations_of_what_is_compared():
+    settings = sw.Settings(seed=3)
+    assert variants(settings, None) == [settings]
+    assert [v.cameras for v in variants(settings, "cameras")] == ["fixed", "learned"]
+    both = variants(settings, "both")
+    assert [(v.views, v.cameras) for v in both][:3] == [(1, "fixed"), (1, "learned"), (2, "fixed")]
+    assert len(both) == 8 and all(v.seed == 3 for v in both)
 
 
 def test_calibration_makes_the_mean_spread_right_and_leaves_values_alone():

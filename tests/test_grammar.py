@@ -311,3 +311,21 @@ def test_the_same_parameters_give_the_same_shape():
     np.testing.assert_array_equal(first.mesh().vertices, second.mesh().vertices)
     np.testing.assert_array_equal(first.mesh().faces, second.mesh().faces)
     assert first.leaves[0].box == second.leaves[0].box
+
+
+def test_parts_of_a_derivation_are_solids_to_go_on_with():
+    bench = Grammar()
+
+    @bench.rule("bench")
+    def parts(box):
+        under, seat = box.split("y", ..., 0.1)
+        yield seat.tag("seat")
+        yield from (corner.tag("legs") for corner in under.corners(0.1))
+
+    shape = bench.derive((1, 0.5, 0.4))
+    assert shape.part("legs").volume == pytest.approx(4 * 0.1 * 0.1 * 0.4)
+    np.testing.assert_allclose(shape.part("seat").bounds[:, 1], shape.bounds[1, 1] - np.array([0.1, 0]))
+    assert shape.without("legs").mesh().label_names == ("seat",)
+    assert (shape.without("legs") | shape.part("legs")).volume == pytest.approx((shape | shape.solid()).volume)
+    with pytest.raises(ValueError, match="no box is labelled 'back'; the labels are: "):
+        shape.part("back")

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shapewright.references import CollectionError, Orientation
-from shapewright.references.orientation import AXES
+from shapewright.references.orientation import AXES, QUARTER_TURNS
 
 PAIRS = [(up, front) for up, front in itertools.product(AXES, AXES) if up[-1] != front[-1]]
 coordinates = st.floats(-1e6, 1e6)
@@ -56,3 +56,12 @@ def test_an_unknown_axis_is_named_with_what_there_is(up, front):
 def test_up_and_front_on_one_axis_are_refused(front):
     with pytest.raises(CollectionError, match="parallel; use two different axes"):
         Orientation.of("y", front)
+
+
+@pytest.mark.parametrize("quarters", range(5))
+@pytest.mark.parametrize(("up", "front"), PAIRS[::5])
+def test_a_turned_orientation_is_the_orientation_and_then_the_turn(up, front, quarters):
+    turned = Orientation(up, front).turned(quarters)
+    turn = QUARTER_TURNS[quarters % 4]
+    np.testing.assert_array_equal(turned.matrix, turn @ Orientation(up, front).matrix)
+    np.testing.assert_array_equal(QUARTER_TURNS[1] @ [0, 0, 1], [1, 0, 0])

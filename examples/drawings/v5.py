@@ -1,4 +1,4 @@
-"""Front views of tables, version 5: crossed legs, braces, a leg in the middle, turned columns and a hanging body."""
+"""Front views of tables, version 5: bent legs, braces, and a body that hangs or stands."""
 
 from typing import Annotated, Literal
 
@@ -65,7 +65,8 @@ def table(
     if body:
         low, high = sorted((body_bottom * under, max(body_top, body_bottom + 0.02) * under))
         parts.append(box((body_width, high - low), at=(0, (low + high) / 2)))
-    return union(*parts) & box((4, height), at=(0, height / 2))
+    shape = union(*parts)
+    return shape if base in ("legs", "column") else shape & box((4, height), at=(0, height / 2))
 
 
 def both(part):

@@ -32,4 +32,5 @@ def table(
     overhang: Annotated[float, Range(0.0, 0.05)] = 0.01,
     oval: bool = False,
 ):
-    return rules.derive((1, height, depth), thickness=thickness, leg=leg, overhang=overhang, oval=oval)
+    """A table one unit wide; other lengths are in that unit unless they say of what they are a part."""
+    return rules.derive((1, height, depth), **locals())

@@ -106,14 +106,5 @@ def table(
     shelf: Annotated[bool, When(frames)] = False,
     base: Literal["legs", "panels", "trestle", "pedestal", "chest"] = "legs",
 ):
-    return rules.derive(
-        (1, height, depth),
-        thickness=thickness,
-        overhang=overhang,
-        leg=leg,
-        apron=apron,
-        level=level,
-        oval=oval,
-        shelf=shelf,
-        base=base,
-    )
+    """A table one unit wide; other lengths are in that unit unless they say of what they are a part."""
+    return rules.derive((1, height, depth), **locals())

@@ -8,10 +8,10 @@ from shapewright.modelling.grammar import Grammar
 from shapewright.modelling.solids import extrude, turned_leg
 
 # Sizes are sampled where most tables are.
-HEIGHTS = (0.16, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0, 1.2, 1.4, 1.6)
+HEIGHTS = (0.18, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0, 1.2, 1.4, 1.6)
 OVERHANGS = (0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.13, 0.16, 0.2)
-SECTIONS = (0.015, 0.025, 0.035, 0.045, 0.055, 0.065, 0.08, 0.1, 0.12, 0.15, 0.18)
-APRONS = (0.0, 0.04, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.4, 0.5)
+SECTIONS = (0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.09, 0.11, 0.14, 0.18)
+APRONS = (0.0, 0.04, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.4)
 
 rules = Grammar()
 
@@ -75,7 +75,7 @@ def panels(box, leg):
     thickness = section(box, leg)[0]
     yield from (end.label("panels") for end in box.ends("x", thickness))
     yield box.inset(x=0.3 * thickness).tag("behind")
-    yield box.inset(x=0.3 * thickness, z=0.02 * box.depth).tag("between")
+    yield box.inset(x=0.3 * thickness, z=(0.02 * box.depth, 0.1 * box.depth)).tag("between")
 
 
 @rules.rule("base", when=lambda p: p.base == "splayed")
@@ -89,14 +89,14 @@ def four_slender_legs(box, leg, splay):
     width, depth = section(box, leg)
     slender = 0.8 / (1 + 2 * splay / box.width), 0.8 / (1 + 2 * splay / box.depth)
     yield from (corner.taper(slender, "-y").label("legs") for corner in box.corners((width, depth)))
-    yield box.inset(x=0.3 * width, z=0.3 * depth).tag("between")
+    yield box.inset(x=0.5 * width, z=0.5 * depth).tag("between")
 
 
 @rules.rule("base")
 def four_legs(box, leg):
     width, depth = section(box, leg)
     yield from (corner.label("legs") for corner in box.corners((width, depth)))
-    yield box.inset(x=0.3 * width, z=0.3 * depth).tag("between")
+    yield box.inset(x=0.5 * width, z=0.5 * depth).tag("between")
 
 
 def section(box, leg):
@@ -138,9 +138,9 @@ def three_drawers(box):
 
 
 @rules.rule("below", when=lambda p: p.tiers > 0)
-def tiers(box, level, tiers):
+def tiers(box, level, tiers, tier):
     for space in box.inset(y=(level * box.height, 0)).repeat("y", tiers):
-        yield space.split("y", min(0.035, 0.25 * space.height))[0].tag("tier")
+        yield space.split("y", min(0.03 if tier == "shelf" else 0.06, 0.25 * space.height))[0].tag("tier")
 
 
 @rules.rule("below")
@@ -155,7 +155,7 @@ def shelf(box):
 
 @rules.rule("tier", when=lambda p: p.tier == "cross")
 def cross(box, leg):
-    width, depth = section(box, 0.5 * leg)
+    width, depth = section(box, 0.6 * leg)
     across, along = box.width - width, box.depth - depth
     for turn in 1, -1:
         bar = box.sub((math.hypot(across, along), None, depth))
@@ -164,7 +164,7 @@ def cross(box, leg):
 
 @rules.rule("tier")
 def rails(box, leg):
-    yield from (rail.label("stretchers") for rail in box.rails(section(box, 0.5 * leg)))
+    yield from (rail.label("stretchers") for rail in box.rails(section(box, 0.6 * leg)))
 
 
 def four_corners(p):
@@ -172,24 +172,29 @@ def four_corners(p):
 
 
 def room_for_tiers(p):
-    return p.base == "legs" or (p.base == "panels" and p.cabinets < 3)
+    return p.base == "legs" or (p.base == "panels" and p.cabinets == 0)
+
+
+def room_for_back(p):
+    return p.base == "trestle" or (p.base == "panels" and p.cabinets < 3 and p.tiers == 0)
 
 
 @procedure
 def table(
-    height: Annotated[float, Range(0.16, 1.6, steps=HEIGHTS)] = 0.7,  # width is 1
+    height: Annotated[float, Range(0.18, 1.6, steps=HEIGHTS)] = 0.7,  # width is 1
     depth: Annotated[float, Range(0.28, 1.0)] = 0.6,
     thickness: Annotated[float, Range(0.012, 0.1)] = 0.03,
     overhang: Annotated[float, Range(0.0, 0.2, steps=OVERHANGS)] = 0.02,  # of width and depth
-    leg: Annotated[float, Range(0.015, 0.18, steps=SECTIONS)] = 0.05,
-    splay: Annotated[float, Range(0.04, 0.2, when=lambda p: p.base == "splayed")] = 0.1,
-    apron: Annotated[float, Range(0.0, 0.5, steps=APRONS, when=four_corners)] = 0.12,  # of the height below the top
+    leg: Annotated[float, Range(0.02, 0.18, steps=SECTIONS)] = 0.05,
+    splay: Annotated[float, Range(0.05, 0.2, when=lambda p: p.base == "splayed")] = 0.1,
+    apron: Annotated[float, Range(0.0, 0.4, steps=APRONS, when=four_corners)] = 0.12,  # of the height below the top
     level: Annotated[float, Range(0.0, 0.5, when=lambda p: room_for_tiers(p) and p.tiers > 0)] = 0.2,
     tiers: Annotated[int, Range(0, 2, when=room_for_tiers)] = 0,
     cabinets: Annotated[int, Range(0, 3, when=lambda p: p.base == "panels")] = 0,
     oval: bool = False,
-    back: Annotated[bool, When(lambda p: p.base in ("panels", "trestle"))] = False,
+    back: Annotated[bool, When(room_for_back)] = False,
     base: Literal["legs", "splayed", "panels", "trestle", "column", "star"] = "legs",
     tier: Annotated[Literal["shelf", "rails", "cross"], When(lambda p: p.base == "legs" and p.tiers > 0)] = "shelf",
 ):
+    """A table one unit wide; other lengths are in that unit unless they say of what they are a part."""
     return rules.derive((1, height, depth), **locals())

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.comparison.grouping import Group
+from shapewright.facing import quarter_turns
 from shapewright.iteration import Iteration, draw_pictures
 from shapewright.judge import Judge, judge_of
 from shapewright.learning import Lesson, learn, learn_more, limits_of
@@ -34,6 +35,7 @@ from shapewright.references import Collection
 from shapewright.rendering.raster import render
 from shapewright.results import Result, at_limit
 from shapewright.settings import Settings
+from shapewright.shapes import Mesh
 
 _NEAR = 0.5
 """Share of the threshold up to which parameters that were carried over are left as they are."""
@@ -66,6 +68,11 @@ def fit(
         watch = None if previous else partial(_first_answer, references, stages, settings)
         predictor = previous.predictor if previous else None
         lesson = learn(procedure, crew, settings, stages, predictor, watch, references.kind)
+        turns = [0] * len(references)
+        if settings.facing == "found" and references.kind is Mesh:
+            stages.begin("face", len(references))
+            turns = quarter_turns(references, lesson.predictor, crew)
+            references = references.turned(turns)
         stages.begin("describe", len(references))
         judge = judge_of(references, settings, cache)
         found = _Found.none(len(references))
@@ -80,8 +87,10 @@ def fit(
             found = _replicate(procedure, crew, judge, lesson, settings, stages, found)
     builds, distances, predictor = [build for build in found.builds if build], found.distances, lesson.predictor
     stages.begin("compare", len(references))
-    groups = judge.groups(distances)
-    results = _results(procedure, references, builds, distances, judge.overlaps(builds), groups, judge.metric.threshold)
+    (iou, surface), depth = judge.overlaps(builds), judge.depths(builds)
+    compatible = judge.compatible(distances, iou, depth)
+    groups = judge.groups(compatible)
+    results = _results(procedure, references, builds, (distances, iou, surface, depth), compatible, groups)
     stages.begin("picture", 1)
     pictures = draw_pictures(results, settings.workers)
     stages.end()
@@ -95,6 +104,9 @@ def fit(
         source=procedure.source,
         collection={
             "source": references.source,
+            "origins": list(references.origins),
+            "up": references.up,
+            "front": references.front,
             "count": len(references),
             "skipped": {str(path): reason for path, reason in references.skipped.items()},
         },
@@ -102,6 +114,7 @@ def fit(
             "samples": predictor.samples,
             **lesson.facts,
             "first_answer": stages.first_answer,
+            "turned": {name: 90 * turn for name, turn in zip(references.names, turns, strict=True) if turn},
             "epochs": len(predictor.curve),
             "curve": [vars(epoch) for epoch in predictor.curve],
             "validation": predictor.metrics,
@@ -197,11 +210,11 @@ def _results(
     procedure: Procedure,
     references: Collection,
     builds: Sequence[Build],
-    distances: NDArray[np.float64],
-    overlaps: tuple[NDArray[np.float64], NDArray[np.float64]],
+    measures: Sequence[NDArray[np.float64]],
+    compatible: NDArray[np.bool_],
     groups: Sequence[Group],
-    threshold: float,
 ) -> tuple[Result, ...]:
+    """measures: distance, IoU, Chamfer distance and depth difference of each build."""
     group_of = {name: i for i, found in enumerate(groups) for name in found.members}
     return tuple(
         Result(
@@ -214,12 +227,15 @@ def _results(
             distance=float(distance),
             iou=float(iou),
             chamfer=float(surface),
-            compatible=bool(distance <= threshold),
+            compatible=bool(same),
             group=group_of.get(reference.name),
             reference=reference.shape,
             error=_error(build, distance),
+            depth=float(depth),
         )
-        for reference, build, distance, iou, surface in zip(references, builds, distances, *overlaps, strict=True)
+        for reference, build, same, distance, iou, surface, depth in zip(
+            references, builds, compatible, *measures, strict=True
+        )
     )
 
 

@@ -1,4 +1,4 @@
-"""The command line: new, fit, evaluate, sample, report, compare, studio, demo."""
+"""The command line: new, fit, explain, mark, evaluate, sample, silhouettes, report, compare, studio, demo."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import typer
 from rich.console import Console
 from rich.markup import escape
 
+from shapewright import commands
 from shapewright.options import (
     Cameras,
     Device,
@@ -93,17 +94,27 @@ def fit(
         typer.Option("--from", help="A run of an earlier version to go on from: quicker, and what was found stays."),
     ] = None,
     device: Device = "auto",
-    threshold: Annotated[float, typer.Option(help="Largest distance of a compatible mesh.")] = Settings.threshold,
+    threshold: Annotated[
+        float | None, typer.Option(help="Largest distance of a compatible mesh.  [dim]default: 0.18[/]")
+    ] = None,
     fidelity: Annotated[
         float, typer.Option(help="Least visual information fidelity of a compatible drawing.")
     ] = Settings.fidelity,
+    marks: Annotated[
+        bool, typer.Option("--marks", help="Judge as the project's marks say: see [bold]shapewright mark[/].")
+    ] = False,
     align: Annotated[
         Literal["free", "upright"], typer.Option(help="Compare in all rotations, or about the up axis only.")
     ] = "free",
+    facing: Annotated[
+        Literal["given", "found"],
+        typer.Option(help="found turns each reference by the quarter turns about the up axis that fit best."),
+    ] = "given",
     up: Up = "y",
     front: Front = None,
     time_limit: Annotated[float, typer.Option(help="Seconds that building one shape may take.")] = 10.0,
     memory_limit: Annotated[int, typer.Option(help="Megabytes that building one shape may take.")] = 2048,
+    explain: Annotated[bool, typer.Option("--explain", help="Say why, and what to write next.")] = False,
     workers: Workers = None,
     json: Json = False,
 ) -> None:
@@ -112,16 +123,16 @@ def fit(
 
     folder = (out_dir or next_run(Path("runs"))).absolute()
     check_free(folder)
-    given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
+    given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine, threshold=threshold)
     settings = Settings.preset(
         preset,
-        **given,
+        **{**(commands.judged_by_marks(folder) if marks else {}), **given},
         seed=seed,
         rounds=rounds,
         device=device,
-        threshold=threshold,
         fidelity=fidelity,
         align=align,
+        facing=facing,
         shape_seconds=time_limit,
         shape_memory_mb=memory_limit,
         workers=workers,
@@ -129,11 +140,15 @@ def fit(
     earlier = _load_run(previous) if previous else None
     author, loaded = load_procedure(procedure), _load(references, up, front)
     check_writable(folder)
-    iteration, folder = _fit(author, loaded, settings, folder, earlier)
+    iteration, folder = _fit(author, loaded, settings, folder, earlier, explain)
     if json:
         print_json(iteration_record(iteration, folder))
     else:
         print_iteration(out, iteration, folder)
+
+
+app.command()(commands.explain)
+app.command()(commands.mark)
 
 
 @app.command()
@@ -146,6 +161,10 @@ def evaluate(
     cameras: Cameras = None,
     views: Views = None,
     refine: Refine = None,
+    compare: Annotated[
+        Literal["cameras", "views", "both"] | None,
+        typer.Option(help="cameras: fixed against learned; views: 1, 2, 3 and 5 cameras; both: all combinations."),
+    ] = None,
     device: Device = "auto",
     workers: Workers = None,
     json: Json = False,
@@ -153,16 +172,24 @@ def evaluate(
     """Measure how well the parameters of a procedure are found, on samples that were held out."""
     from shapewright.console import print_json, print_trials, progress_bars
     from shapewright.evaluation import evaluate as run_trials
-    from shapewright.evaluation import summary
+    from shapewright.evaluation import summary, variants
 
     given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
     settings = Settings.preset(preset, **given, device=device, workers=workers)
-    with progress_bars(err) as listen:
-        trials = list(run_trials(load_procedure(procedure), [settings], range(seeds), listen))
+    author = load_procedure(procedure)
+    found = []
+    for variant in variants(settings, compare):
+        with progress_bars(err) as listen:
+            trials = list(run_trials(author, [variant], range(seeds), listen))
+        seconds = [trial.seconds for trial in trials]
+        record = {"cameras": variant.cameras, "views": variant.views, "parameters": summary(trials), "seconds": seconds}
+        found.append(record)
+        if not json:
+            if compare:
+                out.print(f"\n[bold]{variant.cameras} cameras, {variant.views}[/]", highlight=False)
+            print_trials(out, trials)
     if json:
-        print_json({"parameters": summary(trials), "seconds": [trial.seconds for trial in trials]})
-    else:
-        print_trials(out, trials)
+        print_json({"variants": found} if compare else found[0])
 
 
 @app.command()
@@ -281,17 +308,18 @@ def demo(
     out_dir: Annotated[Path, typer.Option("--out", help="Folder for the demo's references and runs.")] = Path(
         "demo-run"
     ),
+    drawings: Annotated[bool, typer.Option("--drawings", help="Fifty drawings of tables instead of meshes.")] = False,
     seed: Seed = 0,
     workers: Workers = None,
     json: Json = False,
 ) -> None:
     """Fit two versions of a table procedure to forty bundled tables, and report what the second one gained."""
     from shapewright.console import iteration_record, print_iteration, print_json
-    from shapewright.demo import collection as bundled
-    from shapewright.demo import procedures
+    from shapewright.demo import collection, procedures
+    from shapewright.demo import drawings as drawn
 
     references = out_dir / "references"
-    bundled.write(references)
+    (drawn if drawings else collection).write(references)
     loaded, folder = _load(str(references), "y", None), out_dir
     for version in ("v3", "v5"):
         folder = next_run(out_dir / "runs").absolute()
@@ -299,7 +327,7 @@ def demo(
         if not json:
             out.print(f"\n[bold]tables, {version}[/]", highlight=False)
         settings = Settings(seed=seed, workers=workers)
-        iteration, folder = _fit(load_procedure(procedures.path(version)), loaded, settings, folder)
+        iteration, folder = _fit(load_procedure(procedures.path(version, drawings)), loaded, settings, folder)
         if not json:
             print_iteration(out, iteration, folder)
     if not (out_dir / "procedure.py").exists():
@@ -328,25 +356,31 @@ def _load_run(folder: Path) -> Iteration:
 
 
 def _fit(
-    procedure: Procedure, references: Collection, settings: Settings, folder: Path, previous: Iteration | None = None
+    procedure: Procedure,
+    references: Collection,
+    settings: Settings,
+    folder: Path,
+    previous: Iteration | None = None,
+    explained: bool = False,
 ) -> tuple[Iteration, Path]:
-    """Run and save one iteration; returns it and the folder that it is in."""
+    """Run and save one iteration, explained if wanted; returns it and the folder that it is in."""
     from shapewright.authoring import fit as iterate
     from shapewright.console import progress_bars
 
     try:
         with progress_bars(err) as listen:
             iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
+            also = commands.explanation_of(procedure, references, iteration, listen) if explained else None
     except KeyboardInterrupt:
         err.print("stopped: nothing of this run was written; earlier runs are as they were")
         raise typer.Exit(130) from None
     before = previous_run(folder, set(iteration.names))
     try:
-        return iteration, iteration.save(folder, before)
+        return iteration, iteration.save(folder, before, also)
     except RunError as error:
         refuge = next_run(Path(tempfile.gettempdir()) / "shapewright-runs")
         err.print(f"[red]{escape(str(error))}[/]\nsaving to {escape(str(refuge))} instead", highlight=False)
-        iteration.save(refuge)
+        iteration.save(refuge, also=also)
         raise RunError(f"{error}\nThe run is whole in {refuge}; free some space and move it") from error
 
 

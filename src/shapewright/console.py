@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColum
 from rich.table import Table
 from rich.text import Text
 
+from shapewright.comparison.verdict import Verdict
 from shapewright.evaluation import Trial, summary
 from shapewright.iteration import Iteration
 from shapewright.progress import Listener
@@ -31,6 +32,10 @@ _DOING = {
     "refine": "refining",
     "compare": "comparing",
     "picture": "drawing pictures",
+    "differences": "comparing surfaces",
+    "causes": "looking for causes",
+    "hypotheses": "looking for rules",
+    "trials": "trying suggestions",
 }
 
 
@@ -128,6 +133,32 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
             for entry in record["references"]
         },
     }
+
+
+def print_explanation(console: Console, record: Mapping[str, Any], folder: Path) -> None:
+    """What the incompatible references have in common, and what to write next."""
+    if not record["summary"]:
+        console.print("every reference that has a replica is compatible")
+    for shared in record["summary"]:
+        like = f"  [dim]like {escape(shared['representative'])}[/]"
+        console.print(f"{escape(shared['text'])}{like}", highlight=False, soft_wrap=True)
+    for number, suggestion in enumerate(record["suggestions"], start=1):
+        title = f"\n[bold]{number}. {escape(suggestion['title'])}[/]  +{suggestion['gain']}"
+        console.print(title, highlight=False, soft_wrap=True)
+        console.print(escape(suggestion["text"]), highlight=False, soft_wrap=True)
+    spent = sum(record["seconds"].values())
+    console.print(f"\n[dim]{spent:.0f} s[/]   report: {escape(str(folder / 'report.html'))}", soft_wrap=True)
+
+
+def print_verdict(console: Console, path: Path, verdict: Verdict) -> None:
+    """What the marks say so far."""
+    console.print(f"{verdict.marks} marks in {escape(str(path))}", highlight=False, soft_wrap=True)
+    sure = "" if verdict.accuracy is None else f", right for {verdict.accuracy:.0%} of marks that it has not seen"
+    was = f" (0.18 is right for {verdict.default_accuracy:.0%})" if verdict.default_accuracy is not None else ""
+    console.print(f"threshold {verdict.threshold:.3f}{sure}{was}", highlight=False)
+    if verdict.metric and verdict.metric_accuracy is not None:
+        console.print(f"distance, IoU and depth together: right for {verdict.metric_accuracy:.0%}", highlight=False)
+    console.print("[dim]use it with: shapewright fit PROCEDURE REFERENCES --marks[/]")
 
 
 def print_trials(console: Console, trials: Sequence[Trial]) -> None:

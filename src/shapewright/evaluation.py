@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from shapewright.settings import Settings
 
 REFINED = 100
 """Held-out samples that refinement is measured on, at most."""
+
+VIEWS = (1, 2, 3, 5)
+CAMERAS: tuple[Literal["fixed", "learned"], ...] = ("fixed", "learned")
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,16 @@ def evaluate(
                 refined = None if chosen.refine == "off" else _refined(procedure, crew, lesson, chosen, stages)
             stages.end()
             yield Trial(chosen, lesson.predictor.metrics, refined, seconds)
+
+
+def variants(settings: Settings, compared: Literal["cameras", "views", "both"] | None) -> list[Settings]:
+    """The settings with each kind ("cameras") or number ("views") of cameras, or all combinations ("both")."""
+    found = [settings]
+    if compared in ("views", "both"):
+        found = [replace(each, views=views) for each in found for views in VIEWS]
+    if compared in ("cameras", "both"):
+        found = [replace(each, cameras=cameras) for each in found for cameras in CAMERAS]
+    return found
 
 
 def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, float]]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -105,15 +105,23 @@ class Iteration:
             "seconds": dict(self.seconds),
         }
 
-    def save(self, folder: str | Path, previous: str | Path | None = None) -> Path:
+    def save(
+        self,
+        folder: str | Path,
+        previous: str | Path | None = None,
+        also: Callable[[Path], object] | None = None,
+    ) -> Path:
         """Write the run to a folder that does not exist yet, whole or not at all, and return it.
 
-        previous: an earlier run's folder, which the report compares with. Raises RunError when the folder holds
+        previous: an earlier run's folder, which the report compares with. also: writes more into the folder, such as an
+        explanation, before the report is. Raises RunError when the folder holds
         something already or cannot be written; then nothing is left behind.
         """
         folder = Path(folder).expanduser().absolute()
         with new_folder(folder) as partial:
             self._write(partial)
+            if also:
+                also(partial)
             write_report(partial, Path(previous) if previous else None)
         return folder
 

@@ -13,9 +13,12 @@ from shapewright import metric
 from shapewright.building import Build
 from shapewright.comparison import light_field
 from shapewright.comparison.aligned import AlignedCost
+from shapewright.comparison.depths import depth_difference
 from shapewright.comparison.grouping import Group, group
+from shapewright.comparison.leaders import LARGE, group_by_leaders
 from shapewright.comparison.silhouettes import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
+from shapewright.comparison.verdict import is_same
 from shapewright.picture_judge import PictureJudge
 from shapewright.references import Collection
 from shapewright.settings import Settings
@@ -51,10 +54,14 @@ class Judge:
     def metric(self) -> metric.Metric:
         return metric.light_field(self.settings.threshold)
 
-    def distances(self, builds: Sequence[Build]) -> Floats:
-        """Normalised light-field distance of one build for each reference, (N,); NaN where it cannot be measured."""
+    def distances(self, builds: Sequence[Build], rows: Sequence[int] | None = None) -> Floats:
+        """Normalised light-field distance of one build for each reference, (N,); NaN where it cannot be measured.
+
+        rows: indices of the references that the builds are for, all of them by default.
+        """
         described = _describe([_mesh(build.shape) for build in builds], self.settings.workers)
-        pairs = zip(self.descriptors, described, strict=True)
+        theirs = self.descriptors if rows is None else [self.descriptors[i] for i in rows]
+        pairs = zip(theirs, described, strict=True)
         align = self.settings.align
         return np.array([light_field.distance(a, b, align) if a and b else np.nan for a, b in pairs])
 
@@ -96,13 +103,36 @@ class Judge:
         )
         return iou, surface
 
-    def groups(self, distances: Floats) -> tuple[Group, ...]:
-        """The references whose distance is above the threshold or unknown, by likeness to each other."""
-        rows = [i for i, d in enumerate(self.descriptors) if d and not distances[i] <= self.settings.threshold]
+    def depths(self, builds: Sequence[Build]) -> Floats:
+        """Difference of depth pictures of one build for each reference, (N,); NaN where there is no mesh."""
+        depth = np.full(len(builds), np.nan)
+        rows = [i for i, build in enumerate(builds) if _mesh(build.shape) and self.descriptors[i]]
+        ours = [mesh for i in rows if (mesh := _mesh(builds[i].shape))]
+        theirs = [mesh for i in rows if (mesh := _mesh(self.references.references[i].shape))]
+        depth[rows] = depth_difference(theirs, ours, threads=self.settings.workers)
+        return depth
+
+    def compatible(self, distances: Floats, iou: Floats, depth: Floats) -> NDArray[np.bool_]:
+        """Which pairs count as the same: by the metric, where the settings have one, else by the threshold."""
+        metric = self.settings.metric
+        if metric is None:
+            return np.asarray(distances <= self.settings.threshold)
+        return np.array([is_same(metric, *row) for row in zip(distances, iou, depth, strict=True)], dtype=bool)
+
+    def groups(self, compatible: NDArray[np.bool_]) -> tuple[Group, ...]:
+        """The references that are not compatible, by likeness to each other."""
+        rows = [i for i, d in enumerate(self.descriptors) if d and not compatible[i]]
         misfits = [d for i in rows if (d := self.descriptors[i])]
-        between = light_field.distances(misfits, align=self.settings.align, threads=self.settings.workers)
-        names = [self.references.names[i] for i in rows]
-        return group(names, between, self.settings.cut, self.settings.cut_absolute)
+        names, settings = [self.references.names[i] for i in rows], self.settings
+        if len(rows) <= LARGE:
+            apart = light_field.distances(misfits, align=settings.align, threads=settings.workers)
+            return group(names, apart, settings.cut, settings.cut_absolute)
+
+        def between(some: Sequence[int], others: Sequence[int]) -> Floats:
+            ours, theirs = [misfits[i] for i in some], [misfits[i] for i in others]
+            return light_field.distances(ours, theirs, settings.align, settings.workers)
+
+        return group_by_leaders(names, between, settings.cut, settings.cut_absolute, seed=settings.seed)
 
 
 def _mesh(shape: Shape | None) -> Mesh | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from shapewright.prediction.predictor import Predictor
 from shapewright.prediction.refinement import QUICK, THOROUGH, Budget
 from shapewright.prediction.sensitivity import without_effect
 from shapewright.prediction.training import Epoch, Schedule, train_network
-from shapewright.prediction.vgg import find_weights
+from shapewright.prediction.vgg import VGG19Network, find_weights
 from shapewright.procedure import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.rendering.cameras import PAGE, Camera, starting_views
@@ -75,6 +75,7 @@ def learn(
     Drawing; by default what it builds.
     """
     space = procedure.space
+    schedule = _schedule(settings, previous)
     vectors = space.sample(settings.samples, seed=settings.seed)
     stages.begin("sample", len(vectors))
     builds = crew.build(vectors[:FIRST], give_up=True)
@@ -95,10 +96,9 @@ def learn(
         "failures": describe_failures(failed) if failed else "",
         "without_effect": inert,
         "cameras": {"before": _places(cameras)},
-        "device": pick(settings.device).type,
+        "device": pick(schedule.device).type,
     }
-    epochs = settings.warm_epochs if previous else settings.epochs
-    return _train(procedure, parts, facts, settings, epochs, stages, previous)
+    return _train(procedure, parts, facts, settings, schedule, stages, previous)
 
 
 def learn_more(
@@ -120,7 +120,8 @@ def learn_more(
     added = _draw(procedure, fresh, lesson.predictor.cameras, settings, lesson.training.kind)
     training = join([lesson.training, added])
     parts = [training, lesson.validation, lesson.held_out]
-    return _train(procedure, parts, lesson.facts, settings, settings.warm_epochs, stages, lesson.predictor)
+    schedule = _schedule(settings, lesson.predictor)
+    return _train(procedure, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
 
 
 def limits_of(settings: Settings) -> Limits:
@@ -133,17 +134,18 @@ def _train(
     parts: Sequence[Dataset],
     facts: dict[str, Any],
     settings: Settings,
-    epochs: int,
+    schedule: Schedule,
     stages: Stages,
     previous: Predictor | None,
 ) -> Lesson:
     training, validation, held_out = parts
-    schedule = _schedule(settings, epochs, training.kind)
-    stages.begin("train", epochs)
+    if training.kind is Drawing:
+        schedule = replace(schedule, camera_rate=0.0)
+    stages.begin("train", schedule.epochs)
 
     def tell(epoch: Epoch) -> None:
         losses = {name: value if math.isfinite(value) else None for name, value in vars(epoch).items()}
-        stages.step(epoch.epoch, epochs, f"validation loss {epoch.validation:.3f}", losses)
+        stages.step(epoch.epoch, schedule.epochs, f"validation loss {epoch.validation:.3f}", losses)
 
     initial = previous.network if previous else None
     trained = train_network(procedure.space, training, validation, schedule, tell, settings.workers, initial)
@@ -183,21 +185,23 @@ def _draw(
     return make_dataset(procedure.space, vectors, shapes, cameras, settings.image_size, settings.workers)
 
 
-def _schedule(settings: Settings, epochs: int, kind: type[Shape]) -> Schedule:
+def _schedule(settings: Settings, previous: Predictor | None) -> Schedule:
+    """How to train; weights are looked for here, so that a wrong path fails before anything is built."""
+    starts = settings.network == "vgg19" and not (previous and isinstance(previous.network, VGG19Network))
     return Schedule(
-        epochs=epochs,
+        epochs=settings.warm_epochs if previous else settings.epochs,
         batch=settings.batch,
         learning_rate=settings.learning_rate,
         weight_decay=settings.weight_decay,
         optimiser=settings.optimiser,
-        camera_rate=settings.camera_rate if settings.cameras == "learned" and kind is not Drawing else 0.0,
+        camera_rate=settings.camera_rate if settings.cameras == "learned" else 0.0,
         network=settings.network,
-        weights=find_weights(settings.weights) if settings.network == "vgg19" else None,
+        weights=find_weights(settings.weights) if starts else None,
         device=settings.device,
         seed=settings.seed,
     )
 
 
 def _places(cameras: Sequence[Camera]) -> list[list[float]]:
-    """Azimuth and elevation in degrees, and distance, of every camera."""
-    return [[camera.azimuth, camera.elevation, camera.distance] for camera in cameras]
+    """Azimuth and elevation in degrees, and distance, of every camera that can be moved."""
+    return [[camera.azimuth, camera.elevation, camera.distance] for camera in cameras if camera != PAGE]

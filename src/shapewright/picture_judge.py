@@ -47,14 +47,18 @@ class PictureJudge:
     def metric(self) -> metric.Metric:
         return metric.fidelity(self.settings.fidelity)
 
-    def distances(self, builds: Sequence[Build]) -> Floats:
-        """One less the visual information fidelity of one build for each reference, (N,); NaN where there is none."""
+    def distances(self, builds: Sequence[Build], rows: Sequence[int] | None = None) -> Floats:
+        """One less the visual information fidelity of one build for each reference, (N,); NaN where there is none.
 
-        def distance(row: int) -> float:
-            pair = self._pair(row, builds[row].shape)
+        rows: indices of the references that the builds are for, all of them by default.
+        """
+
+        def distance(asked: tuple[int, Build]) -> float:
+            pair = self._pair(asked[0], asked[1].shape)
             return max(0.0, 1.0 - visual_information_fidelity(*pair)) if pair else np.nan
 
-        return np.array(in_threads(distance, range(len(builds)), self.settings.workers))
+        asked = zip(range(len(builds)) if rows is None else rows, builds, strict=True)
+        return np.array(in_threads(distance, asked, self.settings.workers))
 
     def search_residuals(self, pairs: Sequence[tuple[int, Shape]]) -> list[Floats | None]:
         """What a replica and the reference with that index do not share: the differences of their small pictures.
@@ -83,9 +87,17 @@ class PictureJudge:
         iou = in_threads(overlap, range(len(builds)), self.settings.workers)
         return np.array(iou), np.full(len(builds), np.nan)
 
-    def groups(self, distances: Floats) -> tuple[Group, ...]:
-        """The references whose distance is above the threshold or unknown, by the likeness of their outlines."""
-        rows = [i for i, d in enumerate(self.outlines) if d and not distances[i] <= self.metric.threshold]
+    def depths(self, builds: Sequence[Build]) -> Floats:
+        """(N,) NaN: drawings have no depth."""
+        return np.full(len(builds), np.nan)
+
+    def compatible(self, distances: Floats, iou: Floats, depth: Floats) -> NDArray[np.bool_]:
+        """Which pairs count as the same, by the threshold."""
+        return np.asarray(distances <= self.metric.threshold)
+
+    def groups(self, compatible: NDArray[np.bool_]) -> tuple[Group, ...]:
+        """The references that are not compatible, by the likeness of their outlines."""
+        rows = [i for i, d in enumerate(self.outlines) if d and not compatible[i]]
         misfits = [d for i in rows if (d := self.outlines[i])]
         between = outline.distances(misfits, align=self.settings.align)
         names = [self.references.names[i] for i in rows]

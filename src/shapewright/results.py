@@ -19,9 +19,10 @@ class Result:
 
     parameters: in the procedure's units, None when nothing could be built. active: names of those that matter.
     at_limit: scalars that rest on an end of their Range. replica: the shape the procedure builds, in its own units.
-    distance: by the iteration's metric, iou: of silhouettes, chamfer: in units of the largest extent; NaN without a
-    replica, and chamfer also for drawings. group: index into the iteration's groups, None for a compatible reference.
-    reference: the normalised shape, None in an iteration that was loaded. error: why there is no replica.
+    distance: by the iteration's metric, iou: of silhouettes, chamfer: in units of the largest extent, depth: difference
+    of depth pictures; NaN without a replica, the last two also for drawings. group: index into the iteration's groups,
+    None for a compatible reference. reference: the normalised shape, None in an iteration that was loaded. error: why
+    there is no replica.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Result:
     group: int | None
     reference: Shape | None
     error: str | None = None
+    depth: float = math.nan
 
 
 def at_limit(space: ParameterSpace, parameters: Parameters, margin: float = 0.02) -> tuple[str, ...]:
@@ -58,6 +60,7 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
         "distance": _finite(result.distance),
         "iou": _finite(result.iou),
         "chamfer": _finite(result.chamfer),
+        "depth": _finite(result.depth),
         "compatible": result.compatible,
         "group": result.group,
         "error": result.error,
@@ -68,7 +71,9 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
 
 def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
     """The inverse of ``to_record``, but for the reference's shape."""
-    distance, iou, chamfer = (math.nan if entry[key] is None else entry[key] for key in ("distance", "iou", "chamfer"))
+    distance, iou, chamfer, depth = (
+        math.nan if entry.get(key) is None else entry[key] for key in ("distance", "iou", "chamfer", "depth")
+    )
     return Result(
         name=entry["name"],
         path=Path(entry["path"]) if entry["path"] else None,
@@ -83,6 +88,7 @@ def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
         group=entry["group"],
         reference=None,
         error=entry["error"],
+        depth=depth,
     )
 
 

@@ -22,12 +22,16 @@ class Settings:
     warm_epochs: training of a network that goes on from an earlier one. rounds: of adaptive sampling, each with
     round_samples more samples around what was found for the references and warm_epochs more of training.
 
+    facing: "given" takes references as they are, "found" turns each about the up axis by the quarter turns at which the
+    procedure fits it best.
+
     refine: how long to search for better parameters from the predicted ones, by the judge's measure; refine_seconds:
     what building shapes for that may cost for each reference, on one core (ten times as much when thorough). Procedures
     that take less than 10 ms a shape never reach it.
 
-    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18); fidelity: of a
-    drawing instead the least visual information fidelity (VIF), above which the paper counts from 0.05. cut: groups are
+    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18). metric: decides
+    instead, if given: bias and weights of distance, IoU and depth difference, learned from marks. fidelity: of a
+    drawing the least visual information fidelity (VIF), above which the paper counts from 0.05. cut: groups are
     merged up to this share of the largest distance between incompatible references (paper: 0.4), or up to this
     distance itself when cut_absolute. align: "free" compares in all rotations as the paper does, "upright" about the
     up axis only.
@@ -54,10 +58,12 @@ class Settings:
     warm_epochs: int = 6
     rounds: int = 0
     round_samples: int = 1000
+    facing: Literal["given", "found"] = "given"
     refine: Literal["off", "quick", "thorough"] = "quick"
     refine_seconds: float = 2.0
     threshold: float = 0.18
     fidelity: float = 0.05
+    metric: tuple[float, float, float, float] | None = None
     cut: float = 0.4
     cut_absolute: bool = False
     align: Literal["free", "upright"] = "free"
@@ -116,7 +122,8 @@ class Settings:
     def from_record(cls, record: dict[str, Any]) -> Settings:
         """The inverse of ``record``; entries of other versions are left out."""
         known = {field.name for field in fields(cls)}
-        return cls(**{name: value for name, value in record.items() if name in known})
+        plain: dict[str, Any] = {name: tuple(v) if isinstance(v, list) else v for name, v in record.items()}
+        return cls(**{name: value for name, value in plain.items() if name in known})
 
 
 _PRESETS: dict[str, dict[str, Any]] = {

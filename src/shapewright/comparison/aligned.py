@@ -24,9 +24,10 @@ class AlignedCost:
     It is an upper bound of the light field distance, at a tenth of a descriptor's time.
     """
 
-    def __init__(self, reference: Descriptor) -> None:
-        self._target = weighted(reference.coefficients[FIELD], reference.bits).astype(np.int64)
-        self._middle = (reference.coefficients[FIELD] + 0.5) * WEIGHTS
+    def __init__(self, reference: Descriptor | Mesh) -> None:
+        whole = quantise(_coefficients(reference)) if isinstance(reference, Mesh) else reference.coefficients[FIELD]
+        self._target = weighted(whole, 4).astype(np.int64)
+        self._middle = (whole + 0.5) * WEIGHTS
 
     def __call__(self, replica: Mesh) -> float:
         """The cost of a replica, infinite for one that no view shows."""

@@ -34,13 +34,7 @@ def group(
     """
     if len(names) < 2:
         return tuple(Group(name, (name,)) for name in names)
-    limit = cut if absolute else cut * float(distances.max())
-    labels = AgglomerativeClustering(
-        n_clusters=None,
-        metric="precomputed",
-        linkage="complete",
-        distance_threshold=float(np.nextafter(limit, np.inf)),
-    ).fit_predict(distances)
+    labels = clusters(distances, cut if absolute else cut * float(distances.max()))
     groups = []
     for label in np.unique(labels):
         rows = np.flatnonzero(labels == label)
@@ -48,3 +42,16 @@ def group(
         order = rows[np.lexsort((rows, inward))]
         groups.append(Group(names[order[0]], tuple(names[i] for i in order)))
     return tuple(sorted(groups, key=lambda g: (-len(g), g.representative)))
+
+
+def clusters(distances: NDArray[np.float64], limit: float) -> NDArray[np.int64]:
+    """A number of its cluster for each of N shapes: complete linkage, merged up to ``limit``."""
+    if len(distances) < 2:
+        return np.zeros(len(distances), dtype=np.int64)
+    linkage = AgglomerativeClustering(
+        n_clusters=None,
+        metric="precomputed",
+        linkage="complete",
+        distance_threshold=float(np.nextafter(limit, np.inf)),
+    )
+    return np.asarray(linkage.fit_predict(distances), dtype=np.int64)

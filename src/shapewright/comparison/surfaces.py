@@ -1,25 +1,46 @@
-"""Distance between the surfaces of two shapes."""
+"""Points on surfaces, and the distance between the surfaces of two shapes."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from shapewright.shapes import Floats, Mesh
+from shapewright.shapes import Floats, Ints, Mesh
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Points (N, 3) on a surface, the faces (N,) they lie on, those faces' unit normals (N, 3), and the whole area."""
+
+    points: Floats
+    faces: Ints
+    normals: Floats
+    area: float
+
+
+def sample(mesh: Mesh, count: int, seed: int = 0) -> Samples:
+    """Points uniform by area. Raises ValueError for a surface without area."""
+    rng = np.random.default_rng(seed)
+    corners = mesh.triangles
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(across, axis=1)
+    total = float(lengths.sum())
+    if not total > 0.0:
+        raise ValueError("the surface has no area")
+    faces = rng.choice(len(corners), count, p=lengths / lengths.sum())
+    corners = corners[faces]
+    u, v = rng.random((2, count, 1))
+    over = u + v > 1.0
+    u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
+    points = corners[:, 0] + u * (corners[:, 1] - corners[:, 0]) + v * (corners[:, 2] - corners[:, 0])
+    return Samples(points, faces, across[faces] / lengths[faces, None], total / 2.0)
 
 
 def sample_surface(mesh: Mesh, count: int, seed: int = 0) -> Floats:
     """Points on the surface, (count, 3), uniform by area."""
-    rng = np.random.default_rng(seed)
-    corners = mesh.triangles
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    if not areas.sum() > 0.0:
-        raise ValueError("the surface has no area")
-    faces = corners[rng.choice(len(corners), count, p=areas / areas.sum())]
-    u, v = rng.random((2, count, 1))
-    over = u + v > 1.0
-    u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
-    return np.asarray(faces[:, 0] + u * (faces[:, 1] - faces[:, 0]) + v * (faces[:, 2] - faces[:, 0]))
+    return sample(mesh, count, seed).points
 
 
 def chamfer(first: Mesh, second: Mesh, points: int = 2000, seed: int = 0) -> float:

@@ -1,4 +1,4 @@
-"""Where the table procedures of the demo are: in the examples of a checkout, or bundled with an installed package."""
+"""Where the demo's procedures are, solid and drawn: in the examples of a checkout, or bundled with the package."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from pathlib import Path
 VERSIONS = ("v1", "v2", "v3", "v4", "v5")
 
 
-def path(version: str) -> Path:
-    """The file of one of VERSIONS."""
+def path(version: str, drawn: bool = False) -> Path:
+    """The file of one of VERSIONS, of solid tables or of drawn ones."""
     here = Path(__file__).resolve().parent
-    candidates = (here / "tables" / f"{version}.py", here.parents[2] / "examples" / "tables" / f"{version}.py")
+    bundled, example = ("drawn", "drawings") if drawn else ("tables", "tables")
+    candidates = (here / bundled / f"{version}.py", here.parents[2] / "examples" / example / f"{version}.py")
     return next(candidate for candidate in candidates if candidate.exists())

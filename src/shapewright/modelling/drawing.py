@@ -44,6 +44,8 @@ __all__ = [
 Point: TypeAlias = Sequence[float] | Floats
 Axis: TypeAlias = Literal["x", "y"]
 ORIGIN = (0.0, 0.0)
+_GRID = -32
+"""Corners are rounded to this power of two of the largest extent."""
 _MITRE = 5.0
 """Corners are pointed until their point would be so many half widths away."""
 
@@ -117,9 +119,15 @@ class Sketch:
         return float(self.geometry.area)
 
     def drawing(self) -> Drawing:
-        """The drawing that a procedure's result is made into. Raises ValueError when there is nothing to see."""
+        """The drawing that a procedure's result is made into. Raises ValueError when there is nothing to see.
+
+        Parts that are meant to touch are joined even where rounding has left them a hair apart.
+        """
+        if self.geometry.geom_type == "Polygon":
+            return Drawing(self.geometry)
         parts = [part for part in shapely.get_parts(self.geometry) if part.area > 0.0]
-        return Drawing(cast("shapely.Polygon | shapely.MultiPolygon", shapely.union_all(parts)))
+        grid = 2.0 ** math.floor(math.log2(np.ptp(self.bounds, axis=0).max()) + _GRID) if parts else None
+        return Drawing(cast("shapely.Polygon | shapely.MultiPolygon", shapely.union_all(parts, grid_size=grid)))
 
 
 def line(start: Point, end: Point, width: float, round: bool = False) -> Sketch:

@@ -38,7 +38,7 @@ from shapewright.modelling.curves import TOLERANCE
 from shapewright.modelling.divisions import share
 from shapewright.modelling.forms import Group
 from shapewright.modelling.solid import Solid
-from shapewright.shapes import Mesh
+from shapewright.shapes import Floats, Mesh
 
 __all__ = ["SIDES", "Box", "Derivation", "Grammar", "GrammarError", "Node", "Rule", "Side", "share"]
 
@@ -194,6 +194,32 @@ class Derivation:
         from shapewright.modelling.assembly import joined
 
         return joined(self._leaves(), self.tolerance, by == "rule")
+
+    def part(self, name: str) -> Solid:
+        """The boxes that bear a label, as a solid: ``part("top").bounds``. Raises ValueError when there is none."""
+        found = [leaf for leaf in self._leaves() if leaf.label == name]
+        if not found:
+            labels = ", ".join(dict.fromkeys(leaf.label for leaf in self._leaves() if leaf.label)) or "none"
+            raise ValueError(f"part: no box is labelled {name!r}; the labels are: {labels}")
+        return self._solid(found)
+
+    def without(self, *names: str) -> Solid:
+        """The shape without the boxes that bear these labels, as a solid; empty when nothing is left."""
+        return self._solid([leaf for leaf in self._leaves() if leaf.label not in names])
+
+    def __or__(self, other: Solid) -> Solid:
+        """Union with a solid."""
+        return self.solid() | other if isinstance(other, Solid) else NotImplemented
+
+    @property
+    def bounds(self) -> Floats:
+        """(2, 3): the least and the greatest corner."""
+        return self.solid().bounds
+
+    def _solid(self, leaves: list[Any]) -> Solid:
+        from shapewright.modelling.assembly import joined
+
+        return joined(leaves, self.tolerance, False)
 
     def _leaves(self) -> list[Any]:
         from shapewright.modelling.assembly import Leaf

@@ -14,7 +14,7 @@ from shapewright.modelling.alignment import aligned, manifold_of
 from shapewright.modelling.arguments import ORIGIN, Axis, Direction, Vector
 from shapewright.modelling.curves import TOLERANCE
 from shapewright.shapes import Floats, Ints, Mesh
-from shapewright.slivers import SLIVER, has_slivers, without_slivers
+from shapewright.slivers import SLIVER, has_slivers, heights, without_slivers
 
 if TYPE_CHECKING:
     from shapewright.modelling.deformation import Deformation
@@ -26,10 +26,33 @@ class Solid:
 
     manifold: the geometry; wrap a manifold3d.Manifold of your own as ``Solid(manifold)``.
     labels: the label of each original of manifold3d (the ids in ``run_original_id``) that has one.
+    split: gives the solids that it was united from, None where it is of one piece.
     """
 
     manifold: Manifold
     labels: Mapping[int, str] = field(default_factory=dict)
+    split: Callable[[], tuple[Solid, ...]] | None = field(default=None, repr=False)
+
+    @property
+    def pieces(self) -> tuple[Solid, ...]:
+        """The solids that it was united from, moved, cut and deformed as the whole was since."""
+        return self.split() if self.split else (self,)
+
+    def part(self, name: str) -> Solid:
+        """Its pieces that bear a label, whole, not only what of them can be seen: ``table.part("top").bounds``.
+
+        Raises ValueError when there is none.
+        """
+        found = [piece for piece in self.pieces if name in piece.labels.values()]
+        if not found:
+            labels = ", ".join(dict.fromkeys(self.labels.values())) or "none"
+            raise ValueError(f"part: no piece is labelled {name!r}; the labels are: {labels}")
+        return union(*found)
+
+    def without(self, *names: str) -> Solid:
+        """The solid without the pieces that bear these labels and no other; empty when nothing is left."""
+        kept = [piece for piece in self.pieces if not piece.labels or set(piece.labels.values()) - set(names)]
+        return union(*kept) if kept else Solid(Manifold())
 
     def label(self, name: str) -> Solid:
         """The same solid as one part called ``name``; it replaces the labels it had."""
@@ -47,17 +70,18 @@ class Solid:
         if not isinstance(other, Solid):
             return NotImplemented
         a, b = aligned((self.manifold, other.manifold))
-        return Solid(a ^ b, {**self.labels, **other.labels})
+        return Solid(a ^ b, {**self.labels, **other.labels}, self._each(lambda piece: piece & other))
 
     def __sub__(self, other: Solid) -> Solid:
         """Difference; the faces of a cut bear the label of what cut them."""
         if not isinstance(other, Solid):
             return NotImplemented
         a, b = aligned((self.manifold, other.manifold), facing=1)
-        return Solid(a - b, {**self.labels, **other.labels})
+        return Solid(a - b, {**self.labels, **other.labels}, self._each(lambda piece: piece - other))
 
     def translate(self, by: Vector) -> Solid:
-        return Solid(self.manifold.translate(arguments.vector("translate", "by", by)), self.labels)
+        step = arguments.vector("translate", "by", by)
+        return Solid(self.manifold.translate(step), self.labels, self._each(lambda piece: piece.translate(step)))
 
     def rotate(self, degrees: float, axis: Axis = "y", about: Vector = ORIGIN) -> Solid:
         turn, (x, y, z) = arguments.number("rotate", "degrees", degrees), _unit("rotate", axis)
@@ -138,39 +162,52 @@ class Solid:
         owners = np.repeat(np.arange(len(mesh.run_original_id)), np.diff(mesh.run_index) // 3)
         surface = facets.Surface.of_triangles(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64), owners)
         surface = facets.deformed(surface, deformations, tolerance)
-        return Solid(manifold_of(surface.points, *surface.triangles(), mesh.run_original_id), self.labels).simplified()
+        made = manifold_of(surface.points, *surface.triangles(), mesh.run_original_id)
+        split = self._each(lambda piece: piece.deformed(deformations, tolerance))
+        return Solid(made, self.labels, split).simplified()
 
     def simplified(self) -> Solid:
         """The solid without points that its shape does not need, within a millionth of its largest extent."""
         if self.checked().manifold.is_empty():
             return self
-        return Solid(self.manifold.simplify(SLIVER * float(np.ptp(self.bounds, axis=0).max())), self.labels)
+        least = SLIVER * float(np.ptp(self.bounds, axis=0).max())
+        return Solid(self.manifold.simplify(least), self.labels, self.split)
 
     def mesh(self) -> Mesh:
         """Closed triangles, wound counter-clockwise seen from outside, with the labels; without faces if empty.
 
         Edges and heights of triangles below a millionth of the largest extent are removed.
         """
-        manifold = self.checked().manifold
-        if manifold.is_empty():
+        if self.checked().manifold.is_empty():
             return Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
-        low_x, low_y, low_z, high_x, high_y, high_z = manifold.bounding_box()
-        least = SLIVER * max(high_x - low_x, high_y - low_y, high_z - low_z)
+        mesh, least = self._triangles(self.manifold), SLIVER * float(np.ptp(self.bounds, axis=0).max())
+        if not has_slivers(mesh.triangles, least):
+            return mesh
+        mesh = self._mended(least)  # booleans of flush faces leave triangles without area
+        if not (heights(mesh.triangles) < least).any():
+            return mesh
+        # Those that stay lie between ribbons hardly higher than themselves, which have to go with them.
+        coarser = (self._mended(times * least) for times in (10.0, 100.0))
+        return next((mended for mended in coarser if mended.soundness().sound), mesh)
+
+    def _mended(self, least: float) -> Mesh:
+        """The mesh without edges, and as far as possible without triangles' heights, below ``least``."""
+        mesh = self._triangles(self.manifold.simplify(least))
+        labels = np.zeros(len(mesh.faces), dtype=np.int64) if mesh.face_labels is None else mesh.face_labels
+        vertices, faces, labels = without_slivers(mesh.vertices, mesh.faces, labels, least)
+        return Mesh(vertices, faces, labels if mesh.label_names else None, mesh.label_names)
+
+    def _triangles(self, manifold: Manifold) -> Mesh:
+        """A manifold's triangles, with the labels of this solid."""
         mesh = manifold.to_mesh64()
-        vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
-        thin = has_slivers(vertices[faces], least)  # booleans of flush faces leave triangles without area
-        if thin:
-            mesh = self.simplified().manifold.to_mesh64()
-            vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
         lengths = np.diff(mesh.run_index) // 3
         runs = [self.labels.get(original) for original in mesh.run_original_id]
         present = {name for name, length in zip(runs, lengths, strict=True) if length}
         names = tuple(dict.fromkeys(name for name in self.labels.values() if name in present))
         index: dict[str | None, int] = {name: i for i, name in enumerate(names)}
         owners = np.repeat(np.array([index.get(name, -1) for name in runs], dtype=np.int64), lengths)
-        if thin:
-            vertices, faces, owners = without_slivers(vertices, faces, owners, least)
-        return Mesh(vertices, faces, owners, names) if names else Mesh(vertices, faces)
+        vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
+        return Mesh(vertices, faces, owners if names else None, names)
 
     def checked(self) -> Solid:
         """The solid itself. Raises ValueError when manifold3d could not make it."""
@@ -191,9 +228,14 @@ class Solid:
 
     def _about(self, function: str, about: Vector, move: Callable[[Manifold], Manifold]) -> Solid:
         x, y, z = arguments.vector(function, "about", about)
+        split = self._each(lambda piece: piece._about(function, about, move))
         if x == y == z == 0.0:
-            return Solid(move(self.manifold), self.labels)
-        return Solid(move(self.manifold.translate((-x, -y, -z))).translate((x, y, z)), self.labels)
+            return Solid(move(self.manifold), self.labels, split)
+        return Solid(move(self.manifold.translate((-x, -y, -z))).translate((x, y, z)), self.labels, split)
+
+    def _each(self, change: Callable[[Solid], Solid]) -> Callable[[], tuple[Solid, ...]] | None:
+        """The pieces after a change, made when they are asked for."""
+        return (lambda: tuple(change(piece) for piece in self.pieces)) if self.split else None
 
     @property
     def _domain(self) -> deformation.Domain:
@@ -215,7 +257,8 @@ def union(*solids: Solid) -> Solid:
     if len(solids) == 1:
         return solids[0]
     labels = {original: name for solid in solids for original, name in solid.labels.items()}
-    return Solid(Manifold.batch_boolean(aligned([solid.manifold for solid in solids]), OpType.Add), labels)
+    made = Manifold.batch_boolean(aligned([solid.manifold for solid in solids]), OpType.Add)
+    return Solid(made, labels, lambda: tuple(piece for solid in solids for piece in solid.pieces))
 
 
 def hull(*solids: Solid) -> Solid:

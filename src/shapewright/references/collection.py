@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from shapewright.conversion import as_shape
 from shapewright.references import files, sources
 from shapewright.references.errors import CollectionError, UnreadableError
-from shapewright.references.orientation import Orientation
+from shapewright.references.orientation import QUARTER_TURNS, Orientation
 from shapewright.shapes import Drawing, Floats, Mesh, Shape, Transform, shape_digest
 
 _REASONS = 5
@@ -47,6 +47,22 @@ class Reference:
         original = self.transform.invert(points)
         return self.orientation.invert(original) if isinstance(self.shape, Mesh) else original
 
+    def turned(self, quarters: int) -> Reference:
+        """The same shape after so many quarter turns about the up axis, from the front towards the right.
+
+        A drawing stays as it is.
+        """
+        if not isinstance(self.shape, Mesh):
+            return self
+        turn = QUARTER_TURNS[quarters % 4]
+        transform = Transform(tuple(turn @ self.transform.centre), self.transform.scale)
+        return replace(
+            self,
+            shape=self.shape.transformed(turn),
+            transform=transform,
+            orientation=self.orientation.turned(quarters),
+        )
+
     def __repr__(self) -> str:
         size = f"{len(self.shape.faces)} faces" if isinstance(self.shape, Mesh) else "drawing"
         return f"Reference({self.name!r}, {size})"
@@ -59,11 +75,15 @@ class Collection:
     They are all meshes, or all drawings; CollectionError is raised for a mixture.
 
     skipped: the files that could not be read, with the reason. source: where the collection came from, in words.
+    origins: absolute paths or patterns to load it from again, none for one made in memory; up, front: their axes.
     """
 
     references: tuple[Reference, ...]
     skipped: Mapping[Path, str] = field(default_factory=dict)
     source: str = "memory"
+    origins: tuple[str, ...] = ()
+    up: str = "y"
+    front: str | None = None
 
     def __post_init__(self) -> None:
         drawings = [reference.name for reference in self if isinstance(reference.shape, Drawing)]
@@ -100,7 +120,8 @@ class Collection:
         if not references:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
-        return cls(tuple(references), skipped, os.fspath(origins[0]) + more)
+        again = tuple(str(Path(origin).expanduser().absolute()) for origin in origins)
+        return cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front)
 
     @classmethod
     def of(cls, shapes: Mapping[str, Any], *, up: str = "y", front: str | None = None) -> Collection:
@@ -113,6 +134,10 @@ class Collection:
             raise CollectionError("no shapes given; a collection needs at least one")
         references = [_in_memory(name, shapes[name], orientation) for name in sorted(shapes, key=sources.natural_key)]
         return cls(tuple(references))
+
+    def turned(self, quarters: Sequence[int]) -> Collection:
+        """The collection with every reference turned about the up axis: see ``Reference.turned``."""
+        return replace(self, references=tuple(r.turned(q) if q else r for r, q in zip(self, quarters, strict=True)))
 
     @cached_property
     def _by_name(self) -> dict[str, Reference]:

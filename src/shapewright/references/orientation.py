@@ -10,6 +10,10 @@ from numpy.typing import ArrayLike
 from shapewright.references.errors import CollectionError
 from shapewright.shapes import Floats
 
+QUARTER_TURNS = tuple(
+    np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]], dtype=np.float64) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))
+)
+"""Rotations about the up axis by 0, 90, 180 and 270 degrees, from the front (+Z) towards the right (+X)."""
 AXES = ("x", "y", "z", "-x", "-y", "-z")
 
 
@@ -44,6 +48,14 @@ class Orientation:
         """(3, 3): the rotation from the file's axes to Y up, front +Z; its determinant is +1."""
         up, front = _unit(self.up), _unit(self.front)
         return np.stack([np.cross(up, front), up, front])
+
+    def turned(self, quarters: int) -> Orientation:
+        """This orientation and then so many quarter turns about the up axis, from the front towards the right."""
+        front = self.front
+        for _ in range(quarters % 4):
+            left = -np.cross(_unit(self.up), _unit(front))
+            front = ("-" if left.min() < 0 else "") + "xyz"[int(np.abs(left).argmax())]
+        return Orientation(self.up, front)
 
     def apply(self, points: ArrayLike) -> Floats:
         """Points (..., 3) of the file, turned Y up with the front towards +Z."""

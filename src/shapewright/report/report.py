@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+import math
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from PIL import Image
 
 from shapewright.report.comparison import compare
+from shapewright.report.explanation import badges, outlines, read_explanation
 
 FORMAT = 1
 # The paper's colours: green for a perfect replica, yellow at the threshold, red from FAR thresholds on, unless the
@@ -24,12 +26,14 @@ FAR = 2.5
 TINTS = 25
 
 
-def write_report(folder: Path, previous: Path | None = None) -> Path:
+def write_report(folder: Path, previous: Path | None = None, explanation: Path | None = None) -> Path:
     """Write ``folder/report.html`` from ``folder/iteration.json`` and ``folder/thumbnails``; return its path.
 
-    previous: the folder of an earlier iteration to compare with. Pictures are put into the page, so that the file can
-    be moved or sent; only its links to replicas (GLB) point into the folder. Thumbnails that are missing are left
-    blank. Raises FileNotFoundError for a folder without a record, ValueError for a record of another format.
+    previous: the folder of an earlier iteration to compare with. explanation: the folder that holds
+    ``explanation.json``, where that is another one; without such a file nothing is explained. Pictures are put into
+    the page, so that the file can be moved or sent; only its links to replicas (GLB) point into the folder. Thumbnails
+    that are missing are left blank. Raises FileNotFoundError for a folder without a record, ValueError for a record of
+    another format.
     """
     record = _read(folder)
     earlier = _read(previous) if previous else None
@@ -46,7 +50,7 @@ def write_report(folder: Path, previous: Path | None = None) -> Path:
         before=previous.resolve().name if previous else None,
         comparison=compare(record, earlier) if earlier else None,
         previous=earlier,
-        **_contents(record, folder),
+        **_contents(record, folder, read_explanation(explanation or folder)),
     )
     path = folder / "report.html"
     partial = path.with_suffix(".part")
@@ -76,7 +80,7 @@ def _read(folder: Path) -> dict[str, Any]:
     return record
 
 
-def _contents(record: dict[str, Any], folder: Path) -> dict[str, Any]:
+def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] | None) -> dict[str, Any]:
     """What the template shows. A pair is known by its index in the order of the page."""
     threshold = record["threshold"]
     metric = record.get("metric") or {"far": FAR * threshold, "criterion": f"distance at most {_value(threshold)}"}
@@ -95,11 +99,14 @@ def _contents(record: dict[str, Any], folder: Path) -> dict[str, Any]:
     ungrouped = by_distance([name for name in references if name not in grouped and not references[name]["compatible"]])
     order = [*(name for group in groups for name in group), *ungrouped, *compatible]
     index = {name: i for i, name in enumerate(order)}
-    pairs = [_pair(references[name], folder, threshold, far, record["procedure"]["parameters"]) for name in order]
+    told = explanation["references"] if explanation else {}
+    parameters = record["procedure"]["parameters"]
+    pairs = [_pair(references[name], folder, threshold, far, parameters, told.get(name)) for name in order]
     return {
         "record": record,
         "created": _date(record["created"]),
         "pairs": pairs,
+        "explanation": explanation,
         "index": index,
         "groups": [[index[name] for name in group] for group in groups],
         "ungrouped": [index[name] for name in ungrouped],
@@ -117,12 +124,18 @@ def _contents(record: dict[str, Any], folder: Path) -> dict[str, Any]:
             for parameter in record["procedure"]["parameters"]
         },
         "curves": _curves(record["metrics"]["curve"]),
+        "cameras": _cameras(record["metrics"].get("cameras")),
         "data": {"parameters": [_parameter(p) for p in record["procedure"]["parameters"]], "pairs": _details(pairs)},
     }
 
 
 def _pair(
-    reference: dict[str, Any], folder: Path, threshold: float, far: float, parameters: list[dict[str, Any]]
+    reference: dict[str, Any],
+    folder: Path,
+    threshold: float,
+    far: float,
+    parameters: list[dict[str, Any]],
+    told: dict[str, Any] | None,
 ) -> dict[str, Any]:
     distance = reference["distance"]
     files = [folder / "thumbnails" / f"{reference['slug']}.{kind}.png" for kind in ("reference", "replica")]
@@ -130,6 +143,8 @@ def _pair(
     values = reference["parameters"] or {}
     return {
         **reference,
+        "causes": badges(told) if told else [],
+        "outlines": outlines(told) if told and not reference["compatible"] else ([], []),
         "colour": colour(distance, threshold, far),
         "tint": None if distance is None else round(min(distance / (far * threshold), 1.0) * (TINTS - 1)),
         "pictures": pictures,
@@ -151,7 +166,7 @@ def _pair(
 
 def _details(pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """What the page's script shows of each pair when it is opened."""
-    kept = ("name", "colour", "tint", "compatible", "error", "path", "link", "triangles", "values")
+    kept = ("name", "causes", "colour", "tint", "compatible", "error", "path", "link", "triangles", "values")
     return [
         {key: pair[key] for key in kept}
         | {"distance": _number(pair["distance"]), "iou": _number(pair["iou"]), "chamfer": _number(pair["chamfer"], 4)}
@@ -217,6 +232,21 @@ def _curves(curve: list[dict[str, Any]]) -> dict[str, Any] | None:
 def _mean(numbers: list[float | None]) -> float | None:
     known = [number for number in numbers if number is not None]
     return sum(known) / len(known) if known else None
+
+
+def _cameras(places: dict[str, Any] | None) -> list[dict[str, Any]]:
+    """Where each camera stood before and after training: as seen from above, the front at the bottom, and in words."""
+    if not places or "after" not in places:
+        return []
+
+    def above(place: list[float]) -> tuple[float, float]:
+        azimuth, elevation, distance = math.radians(place[0]), math.radians(place[1]), place[2]
+        return distance * math.cos(elevation) * math.sin(azimuth), distance * math.cos(elevation) * math.cos(azimuth)
+
+    return [
+        {"from": above(before), "to": above(after), "before": before, "after": after, "moved": before != after}
+        for before, after in zip(places["before"], places["after"], strict=True)
+    ]
 
 
 def _date(text: str) -> str:

@@ -1,0 +1,77 @@
+"""Front views of tables, version 4: trestles, crossed legs and turned columns."""
+
+from typing import Annotated, Literal
+
+from shapewright import Range, When, procedure
+from shapewright.modelling.drawing import box, line, polygon, spline, union
+
+STANDING = ("legs", "trestles")
+
+
+@procedure
+def table(
+    height: Annotated[float, Range(0.2, 2.2)] = 0.6,  # of the width, as all lengths
+    top: Annotated[float, Range(0.008, 0.3)] = 0.05,
+    base: Literal["legs", "trestles", "crossed", "column"] = "legs",
+    leg: Annotated[float, Range(0.01, 0.3)] = 0.06,  # its width under the top
+    foot: Annotated[float, Range(0.2, 2.0)] = 1.0,  # of that, its width on the floor
+    inset: Annotated[float, Range(0.0, 0.35, when=lambda p: p.base != "column")] = 0.0,
+    splay: Annotated[float, Range(-0.2, 0.25, when=lambda p: p.base == "legs")] = 0.0,
+    spread: Annotated[float, Range(0.05, 0.4, when=lambda p: p.base == "trestles")] = 0.2,
+    waist: Annotated[float, Range(0.3, 3.0, when=lambda p: p.base == "column")] = 1.0,
+    plate: Annotated[float, Range(0.1, 1.0, when=lambda p: p.base == "column")] = 0.5,
+    plate_height: Annotated[float, Range(0.005, 0.3, when=lambda p: p.base == "column")] = 0.04,
+    plate_slope: Annotated[float, Range(0.0, 1.0, when=lambda p: p.base == "column")] = 0.0,
+    middle: Annotated[bool, When(lambda p: p.base in STANDING or p.base == "crossed")] = False,
+    apron: Annotated[float, Range(0.0, 0.35, when=lambda p: p.base in STANDING)] = 0.0,
+    bars: Annotated[int, Range(0, 2, when=lambda p: p.base in STANDING)] = 0,
+    level: Annotated[float, Range(0.0, 0.95, when=lambda p: p.base in STANDING and p.bars > 0)] = 0.2,
+    bar: Annotated[float, Range(0.01, 0.2, when=lambda p: p.base in STANDING and p.bars > 0)] = 0.04,
+    second: Annotated[float, Range(0.0, 0.9, when=lambda p: p.base in STANDING and p.bars > 1)] = 0.5,
+):
+    top = min(top, 0.9 * height)
+    under = height - top
+    parts = [box((1, top), at=(0, height - top / 2))]
+    if base == "column":
+        parts += column(under, leg, foot, waist, plate, plate_height, plate_slope)
+    else:
+        x = max(0.5 - inset - leg / 2, leg / 2)
+        if base == "crossed":
+            parts.append(line((-x, 0), (x, under), width=leg))
+            parts.append(parts[-1].mirror("x"))
+        elif base == "trestles":
+            for toe in (-spread / 2, spread / 2):
+                parts += both(tapered((x - spread / 2, under), (x - spread / 2 + toe, 0), leg, leg * foot))
+        else:
+            parts += both(tapered((x, under), (x + splay, 0), leg, leg * foot))
+        if middle:
+            parts.append(box((leg, under), at=(0, under / 2)))
+        if base in STANDING:
+            if apron > 0:
+                parts.append(box((2 * x, apron * under), at=(0, under - apron * under / 2)))
+            for place in (level, second)[:bars]:
+                reach = x + splay * (1 - place) if base == "legs" else x - spread / 2
+                parts.append(box((2 * max(reach, leg / 2), bar), at=(0, max(place * under, bar / 2))))
+    shape = union(*parts)
+    return shape if base in ("legs", "column") else shape & box((4, height), at=(0, height / 2))
+
+
+def both(part):
+    return [part, part.mirror("x")]
+
+
+def tapered(top, foot, wide, narrow):
+    """A leg from one point to another, as wide at its ends as given."""
+    (x, y), (u, v) = top, foot
+    return polygon([(x - wide / 2, y), (x + wide / 2, y), (u + narrow / 2, v), (u - narrow / 2, v)])
+
+
+def column(under, leg, foot, waist, plate, plate_height, slope):
+    half = leg / 2
+    right = spline((half, under), (half * waist, under / 2), (half * foot, plate_height))
+    shaft = polygon([*right, *([-x, y] for x, y in right[::-1])])
+    rim = plate / 2
+    shoulder = rim * (1 - slope) + half * foot * slope if rim > half * foot else rim
+    low = plate_height * (1 - slope)
+    base = polygon([(-rim, 0), (rim, 0), (rim, low), (shoulder, plate_height), (-shoulder, plate_height), (-rim, low)])
+    return [shaft, base]

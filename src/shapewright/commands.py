@@ -1,0 +1,111 @@
+"""Commands about a run that is there: explain it, mark its pairs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import typer
+from rich.console import Console
+
+from shapewright.marks import marks_path
+from shapewright.options import Json, Workers
+from shapewright.workspace import RunError, cache_folder, previous_run
+
+if TYPE_CHECKING:
+    from shapewright.comparison.verdict import Verdict
+    from shapewright.iteration import Iteration
+    from shapewright.procedure import Procedure
+    from shapewright.progress import Listener
+    from shapewright.references import Collection
+
+out, err = Console(), Console(stderr=True)
+Run = Annotated[Path, typer.Argument(help="Folder of a run.")]
+
+
+def explain(
+    run: Run,
+    references: Annotated[
+        str | None, typer.Option(help="Where the collection is now.  [dim]default: where it was[/]")
+    ] = None,
+    suggestions: Annotated[bool, typer.Option(help="Try what to write next; takes longer.")] = True,
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Say where and why replicas differ from their references, and what to write next; renews the run's report."""
+    from shapewright.console import print_explanation, print_json, progress_bars
+    from shapewright.feedback.again import procedure_of, references_of
+    from shapewright.feedback.explanation import explain as explain_iteration
+    from shapewright.feedback.record import write
+    from shapewright.iteration import Iteration
+
+    run = run.absolute()
+    iteration = Iteration.load(run)
+    procedure, collection = procedure_of(run, iteration), references_of(run, iteration, references)
+    try:
+        with progress_bars(err) as listen:
+            suggest = _suggest if suggestions else None
+            found = explain_iteration(procedure, collection, iteration, listen, cache_folder(), suggest, workers)
+    except KeyboardInterrupt:
+        err.print("stopped: the run is as it was")
+        raise typer.Exit(130) from None
+    record = write(run, found.record, previous_run(run, set(iteration.names)))
+    if json:
+        print_json({"run": str(run), "report": str(run / "report.html"), **record})
+    else:
+        print_explanation(out, record, run)
+
+
+def mark(
+    run: Run,
+    name: Annotated[str, typer.Argument(help="A reference of the run.")],
+    judgement: Annotated[
+        Literal["same", "different"], typer.Argument(help="What it and its replica are, to your eye.")
+    ],
+    json: Json = False,
+) -> None:
+    """Mark a reference and its replica as the same or as different; the marks say what the threshold should be."""
+    from shapewright.console import print_json, print_verdict
+    from shapewright.marks import mark as write_mark
+
+    path = write_mark(run, name, judgement == "same")
+    found = _verdict(run)
+    if json:
+        print_json({"path": str(path), **asdict(found)})
+    else:
+        print_verdict(out, path, found)
+
+
+def judged_by_marks(folder: Path) -> dict[str, Any]:
+    """The settings that a project's marks ask for. folder: of the run to be made. Raises RunError without marks."""
+    found = _verdict(folder)
+    if not found.marks:
+        raise RunError(f"{marks_path(folder)}: no marks yet; make some with: shapewright mark RUN NAME same|different")
+    return {"threshold": found.threshold, "metric": found.metric}
+
+
+def _verdict(run: Path) -> Verdict:
+    from shapewright.comparison.verdict import verdict
+    from shapewright.marks import read_marks
+
+    marks = read_marks(run)
+    return verdict([mark.measures for mark in marks], [mark.same for mark in marks])
+
+
+def explanation_of(
+    procedure: Procedure, references: Collection, iteration: Iteration, progress: Listener | None
+) -> Callable[[Path], object]:
+    """Explain an iteration that is not saved yet; what is returned writes that into its folder."""
+    from shapewright.feedback.explanation import explain as explain_iteration
+    from shapewright.feedback.record import write_into
+
+    record = explain_iteration(procedure, references, iteration, progress, cache_folder(), _suggest).record
+    return lambda folder: write_into(folder, record)
+
+
+def _suggest(*arguments: Any) -> list[dict[str, Any]]:
+    from shapewright.feedback.suggestions import suggest
+
+    return [suggestion.record for suggestion in suggest(*arguments)]

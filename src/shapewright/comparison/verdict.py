@@ -1,0 +1,114 @@
+"""What an author's marks say: the threshold of the distance, and with enough of them a metric of several measures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.linear_model import LogisticRegression
+from sklearn.model_selection import StratifiedKFold
+
+from shapewright.comparison.light_field import THRESHOLD
+from shapewright.shapes import Floats
+
+MEASURES = ("distance", "iou", "depth")
+ENOUGH, OF_EACH = 20, 6
+"""Marks that a metric is learned from at least, and of either kind."""
+_FOLDS = 5
+Metric = tuple[float, float, float, float]
+"""Bias and weights of distance, IoU and depth: a pair is the same where bias + weights . measures is at least 0."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What marks say.
+
+    threshold: of the light-field distance. accuracy: share of marks that such a threshold gets right when it is fitted
+    to others (cross-validation), None for fewer than 4 marks or one kind of them. metric: learned from all measures,
+    None where there are too few marks or it is no better than the threshold; metric_accuracy: cross-validated as well.
+    marks: how many there are. default_accuracy: of the default threshold.
+    """
+
+    threshold: float
+    accuracy: float | None
+    metric: Metric | None
+    metric_accuracy: float | None
+    marks: int
+    default_accuracy: float | None
+
+
+def verdict(measures: Sequence[Mapping[str, float]], same: Sequence[bool], seed: int = 0) -> Verdict:
+    """Fit a threshold, and a metric where there is enough to learn from.
+
+    measures: of each pair, "distance" and perhaps "iou" and "depth". The threshold is the one nearest to the default
+    of 0.18 among those that get most marks right, so with no marks it is the default. A metric, a logistic regression,
+    needs 20 marks with all measures, 6 of either kind, and a better cross-validated accuracy than the threshold.
+    """
+    distances, truth = np.array([each["distance"] for each in measures], dtype=float), np.array(same, dtype=bool)
+    threshold = fit_threshold(distances, truth)
+    default = float(((distances <= THRESHOLD) == truth).mean()) if len(truth) else None
+    accuracy = _cross_validated(distances[:, None], truth, _by_threshold, seed)
+    whole = [i for i, each in enumerate(measures) if all(name in each for name in MEASURES)]
+    table = np.array([[measures[i][name] for name in MEASURES] for i in whole]).reshape(-1, len(MEASURES))
+    known = truth[whole]
+    metric, metric_accuracy = None, None
+    if len(known) >= ENOUGH and min(known.sum(), (~known).sum()) >= OF_EACH:
+        metric_accuracy = _cross_validated(table, known, _by_metric, seed)
+        by_threshold = _cross_validated(table[:, :1], known, _by_threshold, seed)
+        if metric_accuracy is not None and by_threshold is not None and metric_accuracy > by_threshold:
+            metric = fit_metric(table, known)
+    return Verdict(threshold, accuracy, metric, metric_accuracy, len(truth), default)
+
+
+def fit_threshold(distances: Floats, same: NDArray[np.bool_], default: float = THRESHOLD) -> float:
+    """The threshold that gets most pairs right; of several the nearest to the default.
+
+    Between two distances the middle counts, so that no pair lies on the threshold.
+    """
+    if not len(distances):
+        return default
+    order = np.unique(distances)
+    cuts = np.concatenate([[order[0] / 2.0], (order[1:] + order[:-1]) / 2.0, [order[-1] * 1.05], [default]])
+    right = ((distances[:, None] <= cuts) == same[:, None]).sum(axis=0)
+    best = cuts[right == right.max()]
+    return float(best[np.abs(best - default).argmin()])
+
+
+def fit_metric(table: Floats, same: NDArray[np.bool_]) -> Metric:
+    """Logistic regression on standardised measures (N, 3), given back in their own units."""
+    middle, spread = table.mean(axis=0), np.maximum(table.std(axis=0), 1e-6)
+    model = LogisticRegression(class_weight="balanced").fit((table - middle) / spread, same)
+    weights = model.coef_[0] / spread
+    bias = float(model.intercept_[0] - weights @ middle)
+    return (bias, *(float(weight) for weight in weights))  # type: ignore[return-value]
+
+
+def is_same(metric: Metric, distance: float, iou: float, depth: float) -> bool:
+    """Whether the metric takes a pair for the same; False where a measure is unknown."""
+    bias, *weights = metric
+    return bool(bias + float(np.dot(weights, [distance, iou, depth])) >= 0.0)
+
+
+Rule = Callable[[Floats, NDArray[np.bool_], Floats], NDArray[np.bool_]]
+
+
+def _by_threshold(table: Floats, same: NDArray[np.bool_], others: Floats) -> NDArray[np.bool_]:
+    return np.asarray(others[:, 0] <= fit_threshold(table[:, 0], same))
+
+
+def _by_metric(table: Floats, same: NDArray[np.bool_], others: Floats) -> NDArray[np.bool_]:
+    metric = fit_metric(table, same)
+    return np.array([is_same(metric, *row) for row in others], dtype=bool)
+
+
+def _cross_validated(table: Floats, same: NDArray[np.bool_], rule: Rule, seed: int) -> float | None:
+    """Share of pairs that a rule fitted to other pairs gets right."""
+    folds = min(_FOLDS, int(same.sum()), int((~same).sum()))
+    if folds < 2:
+        return None
+    right = np.zeros(len(same), dtype=bool)
+    for fitted, held in StratifiedKFold(folds, shuffle=True, random_state=seed).split(table, same):
+        right[held] = rule(table[fitted], same[fitted], table[held]) == same[held]
+    return float(right.mean())

@@ -1,0 +1,79 @@
+"""The picture of a suggestion: references with what they miss marked, the replicas before and after."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from PIL import Image
+
+from shapewright.rendering.cameras import THUMBNAIL, pack
+from shapewright.rendering.raster import draw_view
+from shapewright.rendering.thumbnails import thumbnail
+from shapewright.shapes import Floats, Mesh
+
+SIZE = 200
+_MARK = np.array([235, 110, 30])
+_BEHIND = 0.03
+_DOT = 2
+_STRENGTH = 0.55
+
+
+@dataclass(frozen=True, eq=False)
+class Example:
+    """One row. marked: points (N, 3) of the normalised reference that the replica before does not come near."""
+
+    reference: Mesh
+    marked: Floats
+    before: Mesh
+    after: Mesh
+
+
+def card(examples: Sequence[Example], size: int = SIZE) -> bytes:
+    """PNG: a row for each example with the marked reference, the replica before and the one after."""
+    rows = [
+        np.concatenate(
+            [
+                _picture(each.reference, each.marked, size),
+                _picture(each.before, None, size),
+                _picture(each.after, None, size),
+            ],
+            axis=1,
+        )
+        for each in examples
+    ]
+    buffer = io.BytesIO()
+    Image.fromarray(np.concatenate(rows)).save(buffer, "PNG", optimize=True)
+    return buffer.getvalue()
+
+
+def _picture(mesh: Mesh, marked: Floats | None, size: int) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
+    """RGB on white, (size, size, 3)."""
+    grey, alpha = np.moveaxis(np.array(Image.open(io.BytesIO(thumbnail(mesh, size))), dtype=np.float64), -1, 0)
+    light = grey * alpha / 255.0 + 255.0 - alpha
+    picture = np.repeat(light[:, :, None], 3, axis=2)
+    if marked is not None and len(marked):
+        mask = _mask(mesh.normalised(), marked, size) & (alpha > 0)
+        tinted = _MARK * (light[mask] / 255.0)[:, None]
+        picture[mask] = (1.0 - _STRENGTH) * picture[mask] + _STRENGTH * tinted
+    return np.round(picture).astype(np.uint8)
+
+
+def _mask(mesh: Mesh, points: Floats, size: int) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    """Pixels at points that can be seen, (size, size)."""
+    camera = pack([THUMBNAIL])[0]
+    shade, inverse = np.empty((2, size, size), dtype=np.float32)
+    draw_view(mesh.vertices, mesh.faces, camera, np.empty_like(mesh.vertices), shade, inverse)
+    right, up, towards = camera[:9].reshape(3, 3) @ points.T
+    away = camera[9] - towards
+    scale = camera[10] / away * size / 2.0
+    column, row = (size / 2.0 + scale * right).astype(int), (size / 2.0 - scale * up).astype(int)
+    mask = np.zeros((size, size), dtype=bool)
+    for i in range(-_DOT, _DOT + 1):
+        for j in range(-_DOT, _DOT + 1):
+            r, c = np.clip(row + i, 0, size - 1), np.clip(column + j, 0, size - 1)
+            seen = np.abs(inverse[r, c] * away - 1.0) < _BEHIND / away
+            mask[r[seen], c[seen]] = True
+    return mask

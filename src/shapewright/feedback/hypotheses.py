@@ -1,0 +1,225 @@
+"""What would turn a replica into its reference: parts taken away, drawn in, or put in place; tried on the mesh alone.
+
+A hypothesis about one misfit is cheap to judge, since no procedure runs. Those that misfits share become rules.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from shapewright.feedback.decomposition import decompose
+from shapewright.feedback.interior import filled
+from shapewright.feedback.pieces import Kind, Piece
+from shapewright.feedback.residuals import NEAR, Residuals
+from shapewright.shapes import Floats, Mesh, concatenate
+
+Costs = Callable[[Sequence[Mesh]], Sequence[float]]
+"""Costs of meshes as replicas of one reference, by the measure to search by."""
+
+REST = "*"
+"""Stands for all parts but those that are removed."""
+_SURPLUS = 0.5  # share of a part's visible surface that is surplus, from which on it may have to go
+_BETTER = 0.88  # of the replica's cost, that a hypothesis must stay below
+_PLAIN, _FANCY = 0.985, 0.93  # of the cost of a box, below which a plain other form is taken, or a fancy one
+_PRICE = 220.0  # cost that each part taken away and each piece must save
+_OVERLAP = 0.2
+_EVEN = 0.93
+_INSETS = (0.62, 0.71, 0.82, 0.91)
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """A change of a replica. removed: labels of parts; inset: those drawn towards the middle along x and z, by factors
+    scale; pieces: what is put in, in the replica's units. cost: of the changed replica; before: of the replica.
+    """
+
+    removed: tuple[str, ...] = ()
+    inset: tuple[str, ...] = ()
+    scale: tuple[float, float] = (1.0, 1.0)
+    pieces: tuple[Piece, ...] = ()
+    cost: float = np.inf
+    before: float = np.inf
+
+    @property
+    def score(self) -> float:
+        """The cost, and what the change itself costs: simple changes suit more references."""
+        return self.cost + _PRICE * (len(self.removed) + len(self.pieces) + len(self.inset))
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """Equal for hypotheses that call for the same rule."""
+        return (self.removed, self.inset, tuple(sorted((piece.key for piece in self.pieces), key=str)))
+
+
+def applied(hypothesis: Hypothesis, replica: Mesh) -> Mesh:
+    """The changed replica, as a soup of its visible faces and the new pieces."""
+    names = np.array([*replica.label_names, ""], dtype=object)
+    labels = names[replica.face_labels] if replica.face_labels is not None else np.full(len(replica.faces), "")
+    kept = ~np.isin(labels, hypothesis.removed)
+    drawn = np.ones(len(labels), dtype=bool) if hypothesis.inset == (REST,) else np.isin(labels, hypothesis.inset)
+    middle = replica.bounds.mean(axis=0)
+    factors = np.array([hypothesis.scale[0], 1.0, hypothesis.scale[1]])
+    parts = [Mesh(replica.vertices, replica.faces[kept & ~drawn])]
+    if (kept & drawn).any():
+        parts.append(Mesh((replica.vertices - middle) * factors + middle, replica.faces[kept & drawn]))
+    parts += [piece.mesh() for piece in hypothesis.pieces]
+    return concatenate([part for part in parts if len(part.faces)] or [replica])
+
+
+def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -> list[Hypothesis]:
+    """Changes that bring the replica nearer to its reference, the best first; none where nothing helps much."""
+    (before,) = costs([replica])
+    blank = Hypothesis(before=before)
+    tried = _priced([*_simple(replica, found, blank)], replica, costs)
+    best = min(tried, key=lambda each: each.cost, default=blank)
+    for removed in dict.fromkeys([(), _surplus(found, replica)]):
+        pieces = _pieces(found, reference, replica, removed)
+        if pieces:
+            whole = replace(blank, removed=removed, pieces=pieces)
+            (whole,) = _priced([whole], replica, costs)
+            if whole.cost < _BETTER * before * 1.15:
+                tried.append(_shaped(_pruned(whole, replica, costs), replica, costs))
+    if best.removed and best.pieces:  # another form of a part: what is left of the misfit may be where the rest stands
+        tried += _priced(
+            [replace(best, inset=(REST,), scale=(s, s), cost=np.inf) for s in _INSETS if not best.inset], replica, costs
+        )
+    good = sorted((each for each in tried if each.cost < _BETTER * before), key=lambda each: each.score)
+    unique = {each.key: each for each in reversed(good)}
+    return sorted(unique.values(), key=lambda each: each.score)
+
+
+def _simple(replica: Mesh, found: Residuals, blank: Hypothesis) -> Iterator[Hypothesis]:
+    """Each part taken away, in another form, or drawn in."""
+    for label in replica.label_names:
+        bounds = _bounds(replica, label)
+        if bounds is None:
+            continue
+        if len(replica.label_names) > 1:
+            yield replace(blank, removed=(label,))
+            for x, z in product((*_INSETS, 1.0), repeat=2):
+                if (x, z) != (1.0, 1.0) and (x == z or 1.0 in (x, z)):
+                    yield replace(blank, inset=(label,), scale=(x, z))
+        middle = (float(bounds[:, 0].mean()), float(bounds[:, 2].mean()))
+        for kind in ("cylinder", "box"):
+            piece = Piece(kind, bounds[0], bounds[1], middle=middle)
+            yield replace(blank, removed=(label,), pieces=(piece,))
+            if len(replica.label_names) > 1:
+                for s in _INSETS[::2]:
+                    yield replace(blank, removed=(label,), pieces=(piece,), inset=(REST,), scale=(s, s))
+
+
+def _bounds(replica: Mesh, label: str) -> Floats | None:
+    assert replica.face_labels is not None
+    faces = replica.faces[replica.face_labels == replica.label_names.index(label)]
+    return Mesh(replica.vertices, faces).bounds if len(faces) else None
+
+
+def _surplus(found: Residuals, replica: Mesh) -> tuple[str, ...]:
+    """Labels of the parts that the reference seems not to have."""
+    if replica.face_labels is None:
+        return ()
+    seen = found.replica.visible
+    labels = replica.face_labels[found.replica.faces[seen]]
+    far = found.to_reference[seen] > NEAR
+    return tuple(
+        name
+        for i, name in enumerate(replica.label_names)
+        if (labels == i).sum() > 8 and far[labels == i].mean() > _SURPLUS
+    )
+
+
+def _pieces(found: Residuals, reference: Mesh, replica: Mesh, removed: tuple[str, ...]) -> tuple[Piece, ...]:
+    """What of the reference is not explained by the parts that stay, as boxes in the replica's units."""
+    far: NDArray[np.bool_] = found.to_replica > NEAR
+    if removed and replica.face_labels is not None:
+        gone = [replica.label_names.index(name) for name in removed]
+        stays = ~np.isin(replica.face_labels[found.replica.faces], gone)
+        if stays.any():
+            distance, _ = cKDTree(found.replica.points[stays]).query(found.reference.points)
+            far = distance > NEAR + found.replica.spacing
+    surface = found.reference.points[found.reference.visible & far]
+    points = found.placement.invert(filled(reference, surface) if len(surface) else surface)
+    middle = replica.bounds.mean(axis=0)
+    for axis in (0, 2):  # two symmetric shapes stand middle on middle, wherever their surfaces have most in common
+        if _even(found.reference.points, 0.0, axis) and _even(replica.vertices, middle[axis], axis):
+            points[:, axis] += middle[axis] - found.placement.invert(np.zeros(3))[axis]
+    return decompose(points, (float(middle[0]), float(middle[2])), 1.0 / found.placement.scale)
+
+
+def _even(points: Floats, middle: float, axis: int) -> bool:
+    """Whether points are the same on both sides of a plane across an axis, all but a few."""
+    image = points.copy()
+    image[:, axis] = 2.0 * middle - image[:, axis]
+    distance, _ = cKDTree(points).query(image[:: max(1, len(image) // 400)])
+    return bool((distance < 0.05 * np.ptp(points, axis=0).max()).mean() > _EVEN)
+
+
+def _pruned(hypothesis: Hypothesis, replica: Mesh, costs: Costs) -> Hypothesis:
+    """The hypothesis without what it does not need: one piece or one removal less at a time, by the score."""
+    while True:
+        shorter = [replace(hypothesis, pieces=_less(hypothesis.pieces, i)) for i in range(len(hypothesis.pieces))]
+        for label in hypothesis.removed:
+            bounds = _bounds(replica, label)
+            kept = tuple(p for p in hypothesis.pieces if bounds is None or _overlap(p, bounds) < _OVERLAP)
+            shorter.append(replace(hypothesis, removed=tuple(r for r in hypothesis.removed if r != label), pieces=kept))
+        shorter = [each for each in shorter if each.pieces or each.removed]
+        least = min(_priced(shorter, replica, costs), key=lambda each: each.score, default=hypothesis)
+        if least.score >= hypothesis.score:
+            return hypothesis
+        hypothesis = least
+
+
+def _less(pieces: tuple[Piece, ...], i: int) -> tuple[Piece, ...]:
+    return (*pieces[:i], *pieces[i + 1 :])
+
+
+def _overlap(piece: Piece, bounds: Floats) -> float:
+    """Intersection over union of a piece's box, with its mirror images, and a part's."""
+    low, high = piece.low.copy(), piece.high.copy()
+    for axis, mirrored, middle in ((0, piece.mirrored[0], piece.middle[0]), (2, piece.mirrored[1], piece.middle[1])):
+        if mirrored:
+            low[axis] = 2 * middle - high[axis]
+    margin = 0.02 * np.ptp(bounds, axis=0).max()
+    common = np.prod(np.maximum(np.minimum(high, bounds[1]) - np.maximum(low, bounds[0]) + margin, 0.0))
+    return float(common / (np.prod(high - low + margin) + np.prod(np.ptp(bounds, axis=0) + margin) - common))
+
+
+def _shaped(hypothesis: Hypothesis, replica: Mesh, costs: Costs) -> Hypothesis:
+    """The hypothesis with each piece in the form that suits best."""
+    for i, piece in enumerate(hypothesis.pieces):
+        if piece.kind != "box":
+            continue
+        forms = [
+            replace(hypothesis, pieces=(*hypothesis.pieces[:i], replace(piece, kind=kind), *hypothesis.pieces[i + 1 :]))
+            for kind in _forms(piece)
+        ]
+        priced = _priced(forms, replica, costs)
+        fit = [each for each in priced if each.cost < _share(each.pieces[i].kind) * hypothesis.cost]
+        hypothesis = min(fit, key=lambda each: each.cost / _share(each.pieces[i].kind), default=hypothesis)
+    return hypothesis
+
+
+def _share(kind: Kind) -> float:
+    return _FANCY if kind in ("frustum", "foot", "sphere") else _PLAIN
+
+
+def _forms(piece: Piece) -> tuple[Kind, ...]:
+    width, height, depth = piece.size
+    if 0.7 < width / depth < 1.4:
+        if 0.7 < height / width < 1.4:
+            return ("cylinder", "frustum", "foot", "sphere")
+        return ("cylinder", "frustum", "foot") if height > 0.2 * width else ("cylinder",)
+    if 0.7 < height / depth < 1.4 and width > depth:
+        return ("rod x",)
+    return ("rod z",) if 0.7 < height / width < 1.4 and depth > width else ("cylinder",)
+
+
+def _priced(several: Sequence[Hypothesis], replica: Mesh, costs: Costs) -> list[Hypothesis]:
+    prices = costs([applied(each, replica) for each in several])
+    return [replace(each, cost=float(price)) for each, price in zip(several, prices, strict=True)]

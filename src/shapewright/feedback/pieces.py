@@ -1,0 +1,111 @@
+"""Pieces to add to a shape: primitives that fill a box, perhaps mirrored or in a row, and their names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+
+from shapewright.modelling.solids import Solid, box, cone, cylinder, slats, sphere
+from shapewright.shapes import Floats, Mesh
+
+Kind = Literal["box", "cylinder", "rod x", "rod z", "frustum", "foot", "sphere", "slats x", "slats y", "slats z"]
+WIDER_TOP, WIDER_FOOT = 0.55, 0.55
+"""Part of the width that the narrow end of a frustum or foot has."""
+_THIN, _LONG = 0.3, 2.5
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A primitive that fills the box from ``low`` to ``high``, (3,) each.
+
+    mirrored: whether it stands once more on the other side of ``middle`` along x and along z. count: of the slats.
+    """
+
+    kind: Kind
+    low: Floats
+    high: Floats
+    mirrored: tuple[bool, bool] = (False, False)
+    middle: tuple[float, float] = (0.0, 0.0)
+    count: int = 1
+    gap: float = 0.0
+
+    @property
+    def size(self) -> Floats:
+        return np.maximum(self.high - self.low, 1e-6)
+
+    @property
+    def centre(self) -> Floats:
+        return np.asarray((self.low + self.high) / 2.0)
+
+    @property
+    def thin(self) -> tuple[bool, ...]:
+        """Per axis, whether it is thin for its length."""
+        return tuple(bool(extent < _THIN * self.size.max()) for extent in self.size)
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """Equal for pieces that are made alike: for the same purpose, very likely."""
+        return (self.kind, self.mirrored, self.thin)
+
+    @property
+    def noun(self) -> str:
+        """What an author might call it."""
+        width, height, depth = self.size
+        if self.kind.startswith("slats"):
+            return "slats"
+        several = "s" if any(self.mirrored) else ""
+        return _noun(self.kind, self.thin, height / max(width, depth), width >= depth) + several
+
+    def mesh(self) -> Mesh:
+        """Its surface, all copies of it."""
+        solid = _unit(self.kind, self.count, round(self.gap, 3)).scale(tuple(self.size)).translate(tuple(self.centre))
+        x, z = self.middle
+        if self.mirrored[0]:
+            solid = solid.mirror("x", keep=True, about=(x, 0.0, 0.0))
+        if self.mirrored[1]:
+            solid = solid.mirror("z", keep=True, about=(0.0, 0.0, z))
+        return solid.mesh()
+
+
+@lru_cache(maxsize=256)
+def _unit(kind: Kind, count: int, gap: float) -> Solid:
+    if kind == "cylinder":
+        return cylinder(1.0)
+    if kind == "rod x":
+        return cylinder(1.0).rotate(90.0, "z")
+    if kind == "rod z":
+        return cylinder(1.0).rotate(90.0, "x")
+    if kind == "frustum":
+        return cone(1.0, top=1.0, bottom=WIDER_TOP)
+    if kind == "foot":
+        return cone(1.0, top=WIDER_FOOT, bottom=1.0)
+    if kind == "sphere":
+        return sphere(1.0)
+    if kind == "slats x":
+        return slats(1.0, count, gap, "x")
+    if kind == "slats y":
+        return slats(1.0, count, gap, "y")
+    if kind == "slats z":
+        return slats(1.0, count, gap, "z")
+    return box(1.0)
+
+
+def _noun(kind: Kind, thin: tuple[bool, ...], slenderness: float, wide: bool) -> str:
+    if kind in ("rod x", "rod z"):
+        return "rod"
+    if kind == "sphere":
+        return "ball"
+    if kind != "box":
+        return "disc" if slenderness < 0.5 else "column"
+    if thin == (True, False, True):
+        return "post"
+    if sum(thin) == 2:
+        return "bar"
+    if thin[1]:
+        return "plate"
+    if sum(thin) == 1:
+        return "panel"
+    return "block" if slenderness < _LONG else "post"

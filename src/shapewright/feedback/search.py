@@ -1,0 +1,201 @@
+"""Searching on where an iteration gave up: longer inside the space, and beyond the Ranges that end too soon."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shapewright.building import Build, Workers
+from shapewright.comparison.light_field import RAW_SCALE
+from shapewright.feedback.placement import Overlay
+from shapewright.feedback.ranges import End, inside, limits, pressed, widened
+from shapewright.feedback.ranges import beyond as wishes_of
+from shapewright.judge import Judge
+from shapewright.parameters import Integer, Parameters, ParameterSpace
+from shapewright.prediction.evolution import Budget, Measure, refine
+from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
+
+Overlays = Mapping[int, Overlay]
+Inferred = Sequence[NDArray[np.float32]]
+
+FIRST = Budget(((12, 1), (4, 4), (2, 8), *((1, 8),) * 5))
+LONGER = Budget(((16, 1), (6, 4), (3, 8), (2, 12), *((1, 12),) * 16))
+LAID = Budget(((6, 2), (3, 6), (2, 8), *((1, 8),) * 5))
+WIDE = Budget(((3, 2), (2, 6), *((1, 8),) * 6))
+EVALUATIONS = 12_000
+"""Shapes built for all references together, about: few misfits are searched for longer than many."""
+_ENOUGH = 0.9  # of the threshold: in the pose they share, distances are upper bounds of what is judged
+_PROMISING = 1.4  # of the threshold
+_LEVEL = 0.1  # rise of the distance that is not worth a longer Range
+
+
+@dataclass(frozen=True)
+class Found:
+    """The nearest shape that is known for a reference: its parameters, mesh and distance.
+
+    parameters may lie outside the Ranges of the space.
+    """
+
+    parameters: Parameters
+    mesh: Mesh
+    distance: float
+
+
+@dataclass(frozen=True, eq=False)
+class Searcher:
+    """Searches for many references of a collection at once; rows are their indices there."""
+
+    space: ParameterSpace
+    crew: Workers
+    judge: Judge
+    seed: int = 0
+
+    @property
+    def threshold(self) -> float:
+        return self.judge.settings.threshold
+
+    def longer(self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found]) -> list[Found]:
+        """The nearest shapes inside the space; those that come close to the threshold are searched for longest.
+
+        inferred: what the predictor says, for these rows.
+        """
+        best = self._search(rows, inferred, known, FIRST.within(0.3 * EVALUATIONS / max(len(rows), 1)))
+        near = [i for i, found in enumerate(best) if self.threshold < found.distance <= _PROMISING * self.threshold]
+        if near:
+            budget = LONGER.within(0.3 * EVALUATIONS / len(near))
+            more = self._search([rows[i] for i in near], [c[near] for c in inferred], [best[i] for i in near], budget)
+            for i, found in zip(near, more, strict=True):
+                best[i] = found
+        return best
+
+    def laid(self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found], overlays: Overlays) -> list[Found]:
+        """The shapes inside the space whose surfaces have most in common with the references'.
+
+        overlays: by row. A shape may be further away by the light field than what is known.
+        """
+        vectors = refine(
+            self.space,
+            inferred,
+            self.crew,
+            lambda pairs: in_threads(lambda p: overlays[rows[p[0]]](p[1]), pairs, self.judge.settings.workers),
+            LAID.within(0.25 * EVALUATIONS / max(len(rows), 1)),
+            self.seed,
+            [found.parameters for found in known],
+            spread=0.2,
+        )
+        fresh = self.measured(rows, vectors)
+        return [new or old for new, old in zip(fresh, known, strict=True)]
+
+    def beyond(self, rows: Sequence[int], known: Sequence[Found]) -> list[Found]:
+        """The nearest shapes when the Ranges are longer at the ends that the known parameters rest on.
+
+        A parameter lies outside its Range only where that pays.
+        """
+        best, ends = list(known), [pressed(self.space, found.parameters) for found in known]
+        todo = [i for i, free in enumerate(ends) if free]
+        for _ in range(2):
+            if not todo:
+                break
+            more = self._wide_search([rows[i] for i in todo], [best[i] for i in todo], [ends[i] for i in todo])
+            again = []
+            for i, found in zip(todo, more, strict=True):
+                best[i] = found
+                free = ends[i] | pressed(self.space, found.parameters)
+                if free != ends[i] and found.distance > self.threshold:
+                    again.append(i)
+                ends[i] = free
+            todo = again
+        return self._pulled_back(rows, known, best)
+
+    def measured(self, rows: Sequence[int], vectors: Sequence[Parameters]) -> list[Found | None]:
+        """Build and judge one vector for each row; None where no shape can be built."""
+        builds = self.crew.build(vectors)
+        return [_found(build, d) for build, d in zip(builds, self.judge.distances(builds, rows), strict=True)]
+
+    def _search(
+        self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found], budget: Budget, spread: float = 0.08
+    ) -> list[Found]:
+        vectors = refine(
+            self.space,
+            inferred,
+            self.crew,
+            self._measure(rows),
+            budget,
+            self.seed,
+            [found.parameters for found in known],
+            spread=spread,
+            enough=_ENOUGH * self.threshold * RAW_SCALE,
+        )
+        return self._nearer(rows, vectors, known)
+
+    def _wide_search(self, rows: Sequence[int], known: Sequence[Found], ends: Sequence[set[End]]) -> list[Found]:
+        wide = widened(self.space)
+        vectors = refine(
+            wide,
+            [_guess(wide, column, known, ends) for column in range(len(wide))],
+            self.crew,
+            self._measure(rows),
+            WIDE.within(0.2 * EVALUATIONS / len(rows)),
+            self.seed,
+            [found.parameters for found in known],
+            within=limits(self.space, wide, ends),
+            spread=0.06,
+            enough=_ENOUGH * self.threshold * RAW_SCALE,
+        )
+        return self._nearer(rows, vectors, known)
+
+    def _pulled_back(self, rows: Sequence[int], known: Sequence[Found], best: Sequence[Found]) -> list[Found]:
+        """The same, with every parameter inside its Range again whose longer Range brings next to nothing."""
+        best = list(best)
+        names = [name for name in self.space.names if any(_outside(self.space, found, name) for found in best)]
+        for name in names:
+            some = [i for i, found in enumerate(best) if _outside(self.space, found, name)]
+            tried = [inside(self.space, best[i].parameters, [name]) for i in some]
+            for i, found in zip(some, self.measured([rows[i] for i in some], tried), strict=True):
+                if found and self._as_good(found.distance, best[i].distance, known[i].distance):
+                    best[i] = found
+        return best
+
+    def _as_good(self, distance: float, wide: float, before: float) -> bool:
+        if distance <= self.threshold:
+            return True
+        return wide > self.threshold and distance - wide <= _LEVEL * (before - wide)
+
+    def _measure(self, rows: Sequence[int]) -> Measure:
+        return lambda pairs: self.judge.search_costs([(rows[i], mesh) for i, mesh in pairs])
+
+    def _nearer(self, rows: Sequence[int], vectors: Sequence[Parameters], known: Sequence[Found]) -> list[Found]:
+        """The nearer of what was known and what these vectors give."""
+        fresh = self.measured(rows, vectors)
+        return [new if new and new.distance < old.distance else old for new, old in zip(fresh, known, strict=True)]
+
+
+def _found(build: Build, distance: float) -> Found | None:
+    if not isinstance(build.shape, Mesh) or np.isnan(distance):
+        return None
+    return Found(build.parameters, build.shape, float(distance))
+
+
+def _outside(space: ParameterSpace, found: Found, name: str) -> bool:
+    return any(wish.parameter == name for wish in wishes_of(space, found.parameters))
+
+
+def _guess(wide: ParameterSpace, column: int, known: Sequence[Found], ends: Sequence[set[End]]) -> NDArray[np.float32]:
+    """What is known, in the form of a prediction; an integer that rests on an end of its Range may go on."""
+    parameter = wide.parameters[column]
+    values = np.array([parameter.encode(found.parameters[parameter.name]) for found in known], dtype=np.float32)
+    if not parameter.classes:
+        return values
+    likely = np.full((len(known), parameter.classes), 1e-6, dtype=np.float32)
+    for row, (value, free) in enumerate(zip(values.astype(int), ends, strict=True)):
+        likely[row, value] = 1.0
+        if isinstance(parameter, Integer):
+            if (parameter.name, "low") in free and value > 0:
+                likely[row, value - 1] = 0.1
+            if (parameter.name, "high") in free and value + 1 < parameter.classes:
+                likely[row, value + 1] = 0.1
+    return likely

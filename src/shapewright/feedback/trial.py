@@ -1,0 +1,180 @@
+"""Trying a changed procedure: refined on the references that it is for, and measured by the judge."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shapewright.building import Limits, Workers
+from shapewright.comparison.light_field import RAW_SCALE
+from shapewright.judge import Judge
+from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.prediction.evolution import Budget, refine
+from shapewright.procedure import Procedure, load_procedure
+from shapewright.shapes import Mesh
+
+GLANCE = Budget(((2, 1), (1, 6), (1, 8), (1, 8)))
+LOOK = Budget(((3, 1), (2, 6), (1, 10), (1, 10)))
+SEARCH = Budget(((2, 2), *((1, 10),) * 9))
+_PROMISING = 1.6  # thresholds: what a first look leaves further away is not searched for
+_ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
+_SPREAD = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """What a changed procedure gave. parameters, distances: by the index of the reference, of all that were tried.
+
+    compatible: indices of those at or below the threshold.
+    """
+
+    parameters: Mapping[int, Parameters]
+    replicas: Mapping[int, Mesh]
+    distances: Mapping[int, float]
+    threshold: float
+
+    @property
+    def compatible(self) -> tuple[int, ...]:
+        return tuple(row for row, distance in self.distances.items() if distance <= self.threshold)
+
+    def joined(self, other: Trial) -> Trial:
+        """The nearer of both for each reference."""
+        rows = [row for row, distance in other.distances.items() if distance < self.distances.get(row, np.inf)]
+        return replace(
+            self,
+            parameters={**self.parameters, **{row: other.parameters[row] for row in rows}},
+            replicas={**self.replicas, **{row: other.replicas[row] for row in rows}},
+            distances={**self.distances, **{row: other.distances[row] for row in rows}},
+        )
+
+
+@contextmanager
+def changed(source: str, procedure: Procedure, judge: Judge) -> Iterator[Workers]:
+    """Workers for the procedure of the same name in a changed source, loaded from a folder that is gone afterwards.
+
+    Raises ProcedureError when the source does not load.
+    """
+    settings = judge.settings
+    with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
+        path = Path(folder) / (procedure.path.name if procedure.path else f"{procedure.name}.py")
+        path.write_text(source, encoding="utf-8")
+        new, limits = (
+            load_procedure(f"{path}:{procedure.name}"),
+            Limits(settings.shape_seconds, settings.shape_memory_mb),
+        )
+        with Workers(new, settings.workers, limits) as crew:
+            yield crew
+
+
+def tried(
+    crew: Workers,
+    starts: Mapping[int, Parameters],
+    judge: Judge,
+    budgets: Sequence[Budget],
+    seed: int = 0,
+) -> Trial:
+    """Search for each reference (by index) from the parameters given, and judge what is found.
+
+    budgets: one after the other, the later ones only for references that come near; none to judge the parameters
+    themselves, moved into the procedure's Ranges.
+    """
+    best: dict[int, _Found] = {}
+    space = crew.procedure.space
+    rows, vectors = list(starts), [space.carry(values) for values in starts.values()]
+    if not budgets:
+        _judge(best, rows, vectors, crew, judge)
+    for number, budget in enumerate(budgets):
+        if rows:
+            vectors = _refined(space, crew, judge, rows, vectors, budget, seed + number)
+            _judge(best, rows, vectors, crew, judge)
+            rows = [row for row in rows if row in best and _worth_more(best[row].distance, judge)]
+            vectors = [best[row].parameters for row in rows]
+    return Trial(
+        {row: found.parameters for row, found in best.items()},
+        {row: found.replica for row, found in best.items()},
+        {row: found.distance for row, found in best.items()},
+        judge.settings.threshold,
+    )
+
+
+def unchanged(crew: Workers, before: Sequence[tuple[Parameters, Mesh]]) -> bool:
+    """Whether the procedure still builds these shapes for these parameters: the same bounds, and as much surface."""
+    builds = crew.build([crew.procedure.space.carry(parameters) for parameters, _ in before])
+    for build, (_, mesh) in zip(builds, before, strict=True):
+        if not isinstance(build.shape, Mesh):
+            return False
+        size = float(mesh.extent.max())
+        if np.abs(build.shape.bounds - mesh.bounds).max() > 1e-6 * size or _area(build.shape, mesh) > 1e-6:
+            return False
+    return True
+
+
+def _area(a: Mesh, b: Mesh) -> float:
+    """Difference of the surfaces' areas, as a part of the second."""
+    areas = [
+        float(np.linalg.norm(np.cross(*(m.triangles[:, [1, 2]] - m.triangles[:, :1]).swapaxes(0, 1)), axis=1).sum())
+        for m in (a, b)
+    ]
+    return abs(areas[0] - areas[1]) / max(areas[1], 1e-12)
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    parameters: Parameters
+    replica: Mesh
+    distance: float
+
+
+def _judge(
+    best: dict[int, _Found], rows: Sequence[int], vectors: Sequence[Parameters], crew: Workers, judge: Judge
+) -> None:
+    """Build and judge one vector for each row, and keep it where it is nearer than what is there."""
+    builds = crew.build(vectors)
+    for row, build, distance in zip(rows, builds, judge.distances(builds, rows), strict=True):
+        if isinstance(build.shape, Mesh) and distance < (best[row].distance if row in best else np.inf):
+            best[row] = _Found(build.parameters, build.shape, float(distance))
+
+
+def _worth_more(distance: float, judge: Judge) -> bool:
+    return judge.settings.threshold < distance <= _PROMISING * judge.settings.threshold
+
+
+def _refined(
+    space: ParameterSpace,
+    crew: Workers,
+    judge: Judge,
+    rows: Sequence[int],
+    vectors: Sequence[Parameters],
+    budget: Budget,
+    seed: int,
+) -> list[Parameters]:
+    return refine(
+        space,
+        _as_inferred(space, vectors),
+        crew,
+        lambda pairs: judge.search_costs([(rows[i], mesh) for i, mesh in pairs]),
+        budget,
+        seed,
+        spread=_SPREAD,
+        enough=_ENOUGH * judge.settings.threshold * RAW_SCALE,
+    )
+
+
+def _as_inferred(space: ParameterSpace, vectors: Sequence[Parameters]) -> list[NDArray[np.float32]]:
+    """Parameters in the form of a prediction that is all but sure of them."""
+    encoded = np.array([space.encode(values) for values in vectors], dtype=np.float32).reshape(len(vectors), len(space))
+    columns: list[NDArray[np.float32]] = []
+    for column, parameter in zip(encoded.T, space, strict=True):
+        if not parameter.classes:
+            columns.append(column)
+            continue
+        likely = np.full((len(column), parameter.classes), 0.1 / parameter.classes, dtype=np.float32)
+        likely[np.arange(len(column)), column.astype(int)] = 0.9
+        columns.append(likely)
+    return columns

@@ -1,0 +1,393 @@
+"""From pieces that several misfits share to a rule in the author's own terms: a function, parameters with Ranges.
+
+Sizes and places are told relative to the bounding box of a part, or of the whole shape: that one which leaves the
+fewest quantities free. Those that are free become parameters.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shapewright.feedback.edit import NewParameter, NewRule
+from shapewright.feedback.pieces import WIDER_FOOT, WIDER_TOP, Kind, Piece
+from shapewright.shapes import Floats
+
+WHOLE = ""
+"""Stands for the whole shape among the frames, which are bounding boxes (2, 3) by label."""
+_NEW = "new "
+"""Before the names of the rule's own pieces among the frames."""
+Frames = Mapping[str, Floats]
+
+_LINE = 116  # characters, indented by four
+_TOUCHING = 0.5
+_AGREE = 0.5  # share of the misfits that have to agree
+_FLUSH, _TOUCH = 0.045, 0.07  # of the whole's largest extent: how near sides are that are one, or touch
+_LARGE = 1.3  # of a frame: it is no measure for what is larger
+_ALIKE = 1.35  # greatest ratio of two sizes that are one
+_CORNERS = (("left", "bottom", "back"), ("right", "top", "front"))
+_SIDES = ("width", "height", "depth")
+_PLACES = ("x", "level", "z")
+_CALLS: dict[Kind, str] = {
+    "box": "box({size}, {at})",
+    "cylinder": "cylinder({size}, {at})",
+    "rod x": 'cylinder({turned}).rotate(90, "z").translate({at})',
+    "rod z": 'cylinder({turned}).rotate(90, "x").translate({at})',
+    "frustum": f"cone({{size}}, {{at}}, top=1, bottom={WIDER_TOP})",
+    "foot": f"cone({{size}}, {{at}}, top={WIDER_FOOT})",
+    "sphere": "sphere({size}, {at})",
+}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A scalar or integer to add: its name and the value that each misfit asks for."""
+
+    name: str
+    values: tuple[float, ...]
+    whole: bool = False
+
+    def parameter(self, low: float, high: float, default: float, when: str | None) -> NewParameter:
+        condition = f", when=lambda p: p.{when}" if when else ""
+        if self.whole:
+            limits = f"{round(low)}, {round(high)}"
+            return NewParameter(self.name, f"Annotated[int, Range({limits}{condition})]", f"{round(default)}")
+        limits = f"{number(low)}, {number(high)}"
+        return NewParameter(self.name, f"Annotated[float, Range({limits}{condition})]", number(default))
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A change in words. function: a template of its text, with {name}. quantities: what is to be a parameter.
+
+    flag: the binary that switches it on, None when the parameters' defaults leave the shape as it is.
+    """
+
+    name: str
+    flag: str | None
+    function: str
+    call: str
+    quantities: tuple[Quantity, ...]
+    imports: tuple[str, ...]
+
+    def spelled(self, ranges: Mapping[str, tuple[float, float, float]]) -> NewRule:
+        """The rule with these ranges (low, high, default) of its quantities."""
+        parameters = [q.parameter(*ranges[q.name], self.flag) for q in self.quantities]
+        if self.flag:
+            off = "True" if not self.function else "False"
+            parameters.insert(0, NewParameter(self.flag, "bool", off))
+        imports = {"shapewright.modelling.solids": self.imports} if self.imports else {}
+        if self.quantities:
+            imports = {"typing": ("Annotated",), "shapewright": ("Range",), **imports}
+        when = self.flag if self.function or not self.flag else f"not {self.flag}"
+        return NewRule(tuple(parameters), self.function, self.call, when, imports)
+
+
+def number(value: float) -> str:
+    """A number as an author would write it: two digits that matter."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
+@dataclass(frozen=True)
+class _Along:
+    """A piece along one axis of a frame. size: "full" or "free"; place: how it stands in it. ends: where it reaches
+    from and to, as (frame, 0 for its low or 1 for its high side), when that is not the frame itself.
+    """
+
+    size: str
+    place: str
+    ratios: Floats
+    offsets: Floats
+    ends: tuple[tuple[str, int], tuple[str, int]] | None = None
+
+    @property
+    def free(self) -> float:
+        spread = np.ptp(np.quantile(self.ratios, [0.1, 0.9])) if self.size == "free" else 0.0
+        moved = np.ptp(np.quantile(self.offsets, [0.1, 0.9])) if self.place == "free" else 0.0
+        large = self.size == "free" and float(np.median(self.ratios)) > _LARGE
+        count = (self.size == "free") + (self.place == "free") + large
+        return count + 0.5 * float(spread + moved) + 0.3 * bool(self.ends)
+
+
+def addition(
+    pieces: Sequence[Sequence[Piece]],
+    frames: Sequence[Frames],
+    removed: Sequence[str],
+    inset: Sequence[float] | None,
+    labels: Sequence[str],
+    free: Callable[[str], str],
+    note: str,
+) -> Rule:
+    """A rule that puts pieces in, perhaps in place of parts.
+
+    pieces: for each piece of the rule, how each misfit wants it. frames: of each misfit. removed: labels of the parts
+    that go. inset: how far each misfit wants the rest drawn in, None where it stays. labels: of the pieces, "" to be
+    named. free: makes a name of the file's that is not taken. note: for the docstring.
+    """
+    nouns = _distinct([several[len(several) // 2].noun for several in pieces])
+    stem = free("_and_".join(nouns)[:40].strip("_"))
+    body: list[str] = []
+    quantities: list[Quantity] = []
+    imports: list[str] = []
+    names: list[str] = []
+    known = [dict(each) for each in frames]
+    standing: dict[str, str] = {}
+    for several, noun, label in zip(pieces, nouns, labels, strict=True):
+        frame, along = _best_frame(several, known)
+        lines, asked, used = _piece_lines(several, known, frame, along, free(noun), label or noun, standing)
+        for each, piece in zip(known, several, strict=True):
+            each[f"{_NEW}{free(noun)}"] = np.stack([piece.low, piece.high])
+        body += lines
+        quantities += asked
+        imports.append(used)
+        names.append(free(noun))
+    rest = f"shape.without({', '.join(map(_quoted, removed))})" if removed else "shape"
+    if inset is not None:
+        factor = free(f"{stem}_inset")
+        quantities.append(Quantity(factor, tuple(inset)))
+        rest = f"{rest}.scale(({factor}, 1, {factor}))"
+    body.append(f"return {' | '.join([rest, *names])}")
+    verb = "replace" if removed else "add"
+    name = free(f"{verb}_{_plain(removed[0])}" if removed else f"{verb}_{stem}")
+    arguments = ", ".join(["shape", *(q.name for q in quantities)])
+    head = f"def {name}({arguments}):"
+    if len(head) > _LINE + 4:
+        head = f"def {name}(\n    {arguments}\n):"
+    text = "\n    ".join([head, f'"""{note}"""', *body])
+    call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
+    return Rule(name, stem, text, call, tuple(quantities), tuple(dict.fromkeys(imports)))
+
+
+def drawing_in(label: str, scales: Sequence[tuple[float, float]], free: Callable[[str], str], note: str) -> Rule:
+    """A rule that draws a part in towards the middle, along x and z."""
+    plain = _plain(label)
+    quantities = tuple(
+        Quantity(free(f"{plain}_inset_{axis}"), tuple(scale[i] for scale in scales)) for i, axis in enumerate("xz")
+    )
+    x, z = (quantity.name for quantity in quantities)
+    name = free(f"draw_in_{plain}")
+    lines = [
+        f"def {name}(shape, {x}, {z}):",
+        f'"""{note}"""',
+        f"return shape.without({_quoted(label)}) | shape.part({_quoted(label)}).scale(({x}, 1, {z}))",
+    ]
+    return Rule(name, None, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
+
+
+def removal(label: str, free: Callable[[str], str]) -> Rule:
+    """A rule that makes a part optional."""
+    flag = free(f"with_{_plain(label)}")
+    return Rule(flag, flag, "", f"{{shape}}.without({_quoted(label)})", (), ())
+
+
+def _best_frame(several: Sequence[Piece], frames: Sequence[Frames]) -> tuple[str, tuple[_Along, ...]]:
+    """The frame that leaves least free; the whole shape on a tie."""
+    shared = [name for name in frames[0] if all(name in each for each in frames)]
+    found = {name: _along(several, frames, name, shared) for name in shared}
+    best = min(
+        (name for name in shared if not name.startswith(_NEW)),
+        key=lambda name: sum(axis.free for axis in found[name]) - 0.2 * (name == WHOLE),
+    )
+    return best, found[best]
+
+
+def _along(several: Sequence[Piece], frames: Sequence[Frames], frame: str, shared: Sequence[str]) -> tuple[_Along, ...]:
+    boxes, wholes = [each[frame] for each in frames], [each[WHOLE] for each in frames]
+    result = []
+    for axis in range(3):
+        low, high = (np.array([getattr(piece, end)[axis] for piece in several]) for end in ("low", "high"))
+        start, end = (np.array([box[i, axis] for box in boxes]) for i in (0, 1))
+        slack = _FLUSH * np.array([np.ptp(whole, axis=0).max() for whole in wholes])
+        extent = np.maximum(end - start, 1e-6)
+        mirrored = axis != 1 and several[0].mirrored[0 if axis == 0 else 1]
+        places = {
+            "middle": np.abs(low + high - start - end) / 2.0 < slack,
+            "low": np.abs(low - start) < slack,
+            "high": np.abs(high - end) < slack,
+            "on": np.abs(low - end) < slack,
+            "under": np.abs(high - start) < slack,
+        }
+        slim = several[0].kind not in ("box", "slats x", "slats y", "slats z") and several[0].thin[axis]
+        full = (not slim) & (np.abs(low - start) < slack) & (np.abs(high - end) < slack) & (high - low > 0.5 * extent)
+        if full.mean() >= _AGREE and not mirrored:
+            result.append(_Along("full", "middle", np.ones(len(several)), np.full(len(several), 0.5)))
+            continue
+        ends = None if mirrored else _ends(low, high, frames, axis, slack, shared)
+        if ends:
+            result.append(_Along("full", "middle", np.ones(len(several)), np.full(len(several), 0.5), ends))
+            continue
+        possible = ("high",) if mirrored else tuple(places)
+        agreed = sorted((p for p in possible if places[p].mean() >= _AGREE), key=lambda p: -float(places[p].mean()))
+        middle = (start + end) / 2.0
+        offset = ((low + high) / 2.0 - middle) / extent * 2.0 if mirrored else ((low + high) / 2.0 - start) / extent
+        result.append(_Along("free", agreed[0] if agreed else "free", (high - low) / extent, offset))
+    return tuple(result)
+
+
+def _ends(
+    low: Floats, high: Floats, frames: Sequence[Frames], axis: int, slack: Floats, shared: Sequence[str]
+) -> tuple[tuple[str, int], tuple[str, int]] | None:
+    """The sides of parts that pieces reach from and to, where these are two different ones."""
+    chosen: list[tuple[str, int]] = []
+    for end in (low, high):
+        best, least = None, np.inf
+        for name in shared:
+            for side in (0, 1):
+                if axis != 1 and name != WHOLE:
+                    continue
+                off = np.abs(end - np.array([each[name][side, axis] for each in frames]))
+                error = float(np.minimum(off, 2.0 * slack).mean()) - 1e-3 * float(slack.mean()) * (name == WHOLE)
+                if (off < slack * (_TOUCH / _FLUSH)).mean() >= _TOUCHING and error < least:
+                    best, least = (name, side), error
+        if best is None:
+            return None
+        chosen.append(best)
+    return (chosen[0], chosen[1]) if chosen[0] != chosen[1] else None
+
+
+def _piece_lines(
+    several: Sequence[Piece],
+    frames: Sequence[Frames],
+    frame: str,
+    along: Sequence[_Along],
+    name: str,
+    label: str,
+    standing: dict[str, str],
+) -> tuple[list[str], list[Quantity], str]:
+    """Lines of code that make the piece; what is free; the function it needs. standing: corners that lines before gave,
+    and the frames they are of.
+    """
+    kind = _commonest([piece.kind for piece in several])
+    mirrored = several[0].mirrored
+    sizes: list[str] = []
+    lines: list[str] = []
+    asked: list[Quantity] = []
+    shared: dict[int, int] = _shared(several, along)
+    for axis in range(3):
+        if ends := along[axis].ends:
+            told = ", ".join(f"{_bounds(name)}[{side}, {axis}]" for name, side in ends)
+            lines.append(f"{_CORNERS[0][axis]}, {_CORNERS[1][axis]} = {told}")
+    for axis in range(3):
+        start, end = _CORNERS[0][axis], _CORNERS[1][axis]
+        if along[axis].size == "full":
+            sizes.append(f"{end} - {start}")
+        elif axis in shared:
+            sizes.append(sizes[shared[axis]])
+        else:
+            word = "thickness" if several[len(several) // 2].thin[axis] else _SIDES[axis]
+            if any(quantity.name == f"{name}_{word}" for quantity in asked):
+                word = _SIDES[axis]
+            asked.append(Quantity(f"{name}_{word}", tuple(along[axis].ratios)))
+            lines.append(f"{word} = {name}_{word} * ({end} - {start})")
+            sizes.append(word)
+    centres = []
+    for axis in range(3):
+        start, end, size = _CORNERS[0][axis], _CORNERS[1][axis], sizes[axis]
+        half = f"{size} / 2"
+        boxes = [each[frame] for each in frames]
+        centred = along[axis].ends is None and all(
+            abs(box[:, axis].sum()) < 2e-3 * np.ptp(box[:, axis]) + 1e-9 for box in boxes
+        )
+        middle = "0" if centred else f"({start} + {end}) / 2"
+        place = along[axis].place
+        if place == "free":
+            word = f"{name}_{_PLACES[axis]}"
+            asked.append(Quantity(word, tuple(along[axis].offsets)))
+            is_mirrored = axis != 1 and mirrored[0 if axis == 0 else 1]
+            from_middle = f"{word} * ({end} - {start}) / 2" if centred else f"{middle} + {word} * ({end} - {start}) / 2"
+            centres.append(from_middle if is_mirrored else f"{start} + {word} * ({end} - {start})")
+        else:
+            where = {"middle": middle, "low": f"{start} + {half}", "high": f"{end} - {half}"}
+            where |= {"on": f"{end} + {half}", "under": f"{start} - {half}"}
+            centres.append(where[place])
+    size, at = f"({', '.join(sizes)})", f"({', '.join(centres)})"
+    gap, count = "", ""
+    if kind.startswith("slats"):
+        asked.append(Quantity(f"{name}_count", tuple(float(piece.count) for piece in several), whole=True))
+        count = asked[-1].name
+        # The gaps shrink with the count, so that any number of slats fits.
+        part = float(np.median([piece.gap * piece.count for piece in several]))
+        gap = f"{number(part)} * ({sizes['xyz'.index(kind[-1])]}) / {count}"
+    middles = [f"({low} + {high}) / 2" for low, high in zip(*_CORNERS, strict=True)]
+    copies = ""
+    for letter, on, axis in (("x", mirrored[0], 0), ("z", mirrored[1], 2)):
+        if on:
+            even = all(abs(each[frame][:, axis].sum()) < 2e-3 * np.ptp(each[frame][:, axis]) + 1e-9 for each in frames)
+            about = f"({middles[0]}, 0, 0)" if axis == 0 else f"(0, 0, {middles[2]})"
+            copies += f'.mirror("{letter}", keep=True{"" if even else f", about={about}"})'
+    line = f"{name} = {_call(kind, size, sizes, at, gap, count)}{copies}.label({_quoted(label)})"
+    if len(line) > _LINE:
+        lines.append(f"at = {at}")
+        line = f"{name} = {_call(kind, size, sizes, 'at', gap, count)}{copies}.label({_quoted(label)})"
+    lines.append(line)
+    used = _call(kind, size, sizes, at, gap, count).split("(")[0]
+    # Corners that nothing needs, or that are there already, are not asked of the frame.
+    anew = [axis for axis in range(3) if along[axis].ends]
+    text = "\n".join(lines)
+    wanted = []
+    for axis in range(3):
+        words = [words[axis] for words in _CORNERS]
+        needed = [word for word in words if re.search(rf"\b{word}\b", text)]
+        if axis not in anew and any(standing.get(word) != frame for word in needed):
+            wanted.append(axis)
+        standing.update({word: "" if axis in anew else frame for word in words if axis in anew or axis in wanted})
+    pairs = [(axis, ", ".join(words[axis] for words in _CORNERS)) for axis in wanted]
+    first = [f"{words} = {_bounds(frame)}[:, {axis}]" for axis, words in pairs]
+    if len(wanted) == 3:
+        corners = ", ".join(f"({', '.join(words)})" for words in _CORNERS)
+        first = [f"{corners} = {_bounds(frame)}"]
+    return [*first, *lines], asked, used
+
+
+def _call(kind: Kind, size: str, sizes: Sequence[str], at: str, gap: str, count: str) -> str:
+    if kind.startswith("slats"):
+        return f'slats({size}, {count}, {gap}, "{kind[-1]}", {at})'
+    turned = f"({sizes[1]}, {sizes[0]}, {sizes[2]})" if kind == "rod x" else f"({sizes[0]}, {sizes[2]}, {sizes[1]})"
+    return _CALLS[kind].format(size=size, at=at, turned=turned)
+
+
+def _bounds(frame: str) -> str:
+    if frame.startswith(_NEW):
+        return f"{frame.removeprefix(_NEW)}.bounds"
+    return "shape.bounds" if frame == WHOLE else f"shape.part({_quoted(frame)}).bounds"
+
+
+def _shared(several: Sequence[Piece], along: Sequence[_Along]) -> dict[int, int]:
+    """Axes along which the piece is as large as along an earlier one, where both are free."""
+    sizes = np.array([piece.size for piece in several])
+    shared: dict[int, int] = {}
+    for second in (1, 2):
+        for first in range(second):
+            if along[first].size == along[second].size == "free" and first not in shared:
+                ratio = sizes[:, second] / sizes[:, first]
+                if ((ratio < _ALIKE) & (ratio > 1.0 / _ALIKE)).mean() >= _AGREE:
+                    shared.setdefault(second, first)
+    return shared
+
+
+def _distinct(nouns: Sequence[str]) -> list[str]:
+    seen: dict[str, int] = {}
+    result = []
+    for noun in nouns:
+        seen[noun] = seen.get(noun, 0) + 1
+        result.append(noun if seen[noun] == 1 else f"{noun}_{seen[noun]}")
+    return result
+
+
+def _commonest(kinds: Sequence[Kind]) -> Kind:
+    """The commonest kind; a fancy one only where most agree."""
+    best = max(dict.fromkeys(kinds), key=kinds.count)
+    if best in ("frustum", "foot", "sphere") and kinds.count(best) < 0.6 * len(kinds):
+        return "cylinder"
+    return best
+
+
+def _plain(label: str) -> str:
+    return re.sub(r"\W+", "_", label).strip("_").lower()
+
+
+def _quoted(text: str) -> str:
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'

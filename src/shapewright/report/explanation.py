@@ -1,0 +1,71 @@
+"""What the report shows of an explanation: badges, outlines of regions over the thumbnails, cards of suggestions."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Mapping, Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shapewright.rendering.cameras import THUMBNAIL, pack
+
+EXPLANATION, PICTURES = "explanation.json", "suggestions"
+SHOWN = 6
+"""Regions drawn on a pair of thumbnails, at most; the first ones of a record are the weightiest."""
+_EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b) in (1, 2, 4)]
+
+Floats = NDArray[np.float64]
+
+
+def read_explanation(folder: Path) -> dict[str, Any] | None:
+    """The record of an explanation in a folder, None where there is none; pictures as data that a page can hold."""
+    path = folder / EXPLANATION
+    if not path.is_file():
+        return None
+    record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"), parse_constant=lambda _: None)
+    for suggestion in record["suggestions"]:
+        picture = folder / suggestion["picture"] if suggestion.get("picture") else None
+        data = base64.b64encode(picture.read_bytes()).decode() if picture and picture.is_file() else None
+        suggestion["picture"] = data and "data:image/png;base64," + data
+    return record
+
+
+def badges(reference: Mapping[str, Any]) -> list[dict[str, str]]:
+    """Kind and text of each cause."""
+    return [{"kind": cause["kind"], "text": cause["text"]} for cause in reference["causes"]]
+
+
+def outlines(reference: Mapping[str, Any]) -> tuple[list[str], list[str]]:
+    """Paths, in a picture of 100 x 100, of the regions on the reference's thumbnail and on the replica's."""
+    placement = reference.get("placement") or {"centre": [0.0, 0.0, 0.0], "scale": 1.0}
+    centre, scale = np.array(placement["centre"]), float(placement["scale"])
+    on: dict[str, list[str]] = {"unexplained": [], "surplus": []}
+    for region in reference["regions"][:SHOWN]:
+        corners = _corners(region)
+        if region["side"] == "surplus":
+            corners = corners / scale + centre
+        on[region["side"]].append(_path(corners))
+    return on["unexplained"], on["surplus"]
+
+
+def _corners(region: Mapping[str, Any]) -> Floats:
+    """(8, 3): neighbours along an axis differ in one bit of their index."""
+    half = np.array(list(product((-0.5, 0.5), repeat=3))) * np.array(region["size"])
+    return np.asarray(np.array(region["centre"]) + half @ np.array(region["axes"]))
+
+
+def _path(corners: Floats) -> str:
+    """The edges of a box as an SVG path."""
+    camera = pack([THUMBNAIL])[0]
+    right, up, towards = camera[:9].reshape(3, 3) @ corners.T
+    scale = 50.0 * camera[10] / (camera[9] - towards)
+    places = np.stack([50.0 + scale * right, 50.0 - scale * up], axis=1)
+    lines: Sequence[str] = [
+        f"M{places[a, 0]:.1f} {places[a, 1]:.1f}L{places[b, 0]:.1f} {places[b, 1]:.1f}" for a, b in _EDGES
+    ]
+    return "".join(lines)

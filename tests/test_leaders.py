@@ -1,0 +1,67 @@
+import numpy as np
+import pytest
+
+from shapewright.comparison.grouping import group
+from shapewright.comparison.leaders import group_by_leaders
+
+
+def clouds(seed, count=8, size=30, spread=0.02):
+    rng = np.random.default_rng(seed)
+    middles = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, 3)] * 2), axis=-1).reshape(-1, 2)[:count]
+    points = np.repeat(middles, size, axis=0) + spread * rng.standard_normal((count * size, 2))
+    return points[rng.permutation(len(points))]
+
+
+def measured(points):
+    taken = []
+
+    def between(some, others):
+        taken.append(len(some) * len(others))
+        return np.linalg.norm(points[list(some)][:, None] - points[list(others)][None], axis=2)
+
+    return between, taken
+
+
+def as_sets(groups):
+    return {frozenset(each.members) for each in groups}
+
+
+@pytest.mark.parametrize("absolute", [False, True])
+def test_separate_groups_are_found_as_with_all_distances(absolute):
+    points = clouds(0)
+    names = [f"{i:03d}" for i in range(len(points))]
+    between, _ = measured(points)
+    everything = list(range(len(points)))
+    cut = 0.3 if absolute else 0.2
+    whole = group(names, between(everything, everything), cut, absolute)
+    quick = group_by_leaders(names, between, cut, absolute)
+    assert len(quick) == 8 and as_sets(quick) == as_sets(whole)
+    middles = {each.representative for each in whole}
+    assert sum(each.representative in middles for each in quick) >= 6
+
+
+def test_it_takes_few_of_all_distances():
+    points = clouds(1, size=400)
+    between, taken = measured(points)
+    groups = group_by_leaders([str(i) for i in range(len(points))], between, 0.3, absolute=True, most=60)
+    assert len(groups) == 8 and sum(taken) < 0.1 * len(points) ** 2
+
+
+def test_too_many_leaders_make_wider_sets():
+    points = np.random.default_rng(2).random((500, 2))
+    between, _ = measured(points)
+    groups = group_by_leaders([str(i) for i in range(500)], between, 0.01, absolute=True, most=40)
+    assert len(groups) <= 40 and sum(map(len, groups)) == 500
+
+
+def test_it_does_not_depend_on_chance():
+    points = clouds(3)
+    between, _ = measured(points)
+    names = [str(i) for i in range(len(points))]
+    assert group_by_leaders(names, between, seed=1) == group_by_leaders(names, between, seed=1)
+
+
+def test_one_shape_and_none():
+    between, _ = measured(np.zeros((1, 2)))
+    assert group_by_leaders([], between) == ()
+    assert group_by_leaders(["a"], between)[0].members == ("a",)
