@@ -361,7 +361,19 @@ def test_marks_are_kept(mended: Studio) -> None:
     pair = {"a": "ball", "b": "table-0", "same": False}
     mended.send("PUT", "/api/marks", [pair])
     assert mended.get("/api/state")["marks"] == [pair]
-    assert json.loads((mended.folder / "marks.json").read_text()) == [{"a": "ball", "b": "table 0", "same": False}]
+    path = mended.folder / "marks.json"
+    assert json.loads(path.read_text()) == [{"a": "ball", "b": "table 0", "same": False}]
+    noted = {"a": "gone", "b": "gone", "same": True, "run": "000", "measures": {"distance": 0.1}}
+    path.write_text(json.dumps([noted, {"a": "ball", "b": "table 0", "same": False, "why": "legs"}]))
+    mended.send("PUT", "/api/marks", [pair, {"a": "ball", "b": "ball", "same": True}])
+    first, second, third = json.loads(path.read_text())
+    assert first == noted and second["why"] == "legs" and third["same"]
+    run = mended.get("/api/state")["collection"]["run"]
+    if run:
+        recorded = {e["name"]: e for e in mended.get_run(run)["references"]}
+        assert third["run"] == run and third["measures"]["distance"] == recorded["ball"]["distance"]
+    mended.send("PUT", "/api/marks", [])
+    assert json.loads(path.read_text()) == [noted]
     mended.send("PUT", "/api/marks", [{"a": "ball", "b": "nobody", "same": True}], 422)
 
 

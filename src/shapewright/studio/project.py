@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import re
 import secrets
 import shutil
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from shapewright.studio.listing import Origin
 from shapewright.workspace import runs
@@ -140,17 +138,6 @@ class Project:
         if not (folder / ".gitignore").exists():
             (folder / ".gitignore").write_text("*\n")
         return folder
-
-    def read_marks(self) -> list[dict[str, Any]]:
-        """The pairs that the author marked as same or different, by name; none where the file cannot be read."""
-        try:
-            pairs = json.loads((self.folder / "marks.json").read_text(encoding="utf-8"))
-            return [{"a": str(p["a"]), "b": str(p["b"]), "same": bool(p["same"])} for p in pairs]
-        except (OSError, ValueError, KeyError, TypeError):
-            return []
-
-    def write_marks(self, pairs: list[dict[str, Any]]) -> None:
-        _write(self.folder / "marks.json", json.dumps(pairs, indent=1) + "\n", "\n")
 
     def fingerprint(self) -> str:
         """Changes whenever the procedure does, or a Python file beside it that it names, or that such a file names."""
