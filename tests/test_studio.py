@@ -405,10 +405,21 @@ def test_pictures_for_browsers_without_webgl(fitted: Studio) -> None:
     assert fitted.request("GET", "/api/references/table-0/render?size=100000")[0] == 422
 
 
-def test_explanation_passes_through(fitted: Studio) -> None:
+def test_a_run_is_explained(fitted: Studio) -> None:
     assert fitted.request("GET", "/api/explanation")[0] == 404
+    fitted.send("POST", "/api/explain", {}, 202)
+    job = fitted.next(lambda m: m["type"] == "job" and m["job"]["state"] in ("done", "failed"), 200)["job"]
+    assert job["kind"] == "explain" and job["state"] == "done", job
+    assert len(job["stages"]) > 1 and job["result"] == {"run": fitted.get("/api/state")["collection"]["run"]}
+    assert fitted.next(lambda m: m["type"] == "explanation")["explanation"]
+    found = fitted.get("/api/explanation")
+    assert set(found["references"]) == {"ball", *(f"table-{i}" for i in range(4))}
+    assert found["references"]["ball"]["regions"] and "suggestions" in found
+
+
+def test_explanation_passes_through(fitted: Studio) -> None:
     run = fitted.folder / "runs" / fitted.get("/api/state")["collection"]["run"]
-    (run / "pictures").mkdir()
+    (run / "pictures").mkdir(exist_ok=True)
     (run / "pictures" / "s.png").write_bytes(b"\x89PNG")
     cause = {"kind": "range", "text": "t", "evidence": 1}
     told = {

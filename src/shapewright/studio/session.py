@@ -190,7 +190,8 @@ class Session:
         """Explain the run that is shown. Raises Refused."""
         if self.showing.run is None:
             raise Refused("there is no run to explain yet; fit first")
-        self._start("explain", ["-m", "shapewright", "explain", str(self.showing.run), "--json"], {})
+        request = {"run": str(self.showing.run), "origin": vars(self.project.origin)}
+        self._start("explain", ["-m", "shapewright.studio.explaining"], request)
 
     def export(self, request: Message) -> None:
         """Pack what the request names. Raises Refused."""
