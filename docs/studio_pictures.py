@@ -97,6 +97,17 @@ def difference(visit: Visit) -> None:
     visit.page.wait_for_selector(".sheet .agrees", state="attached")
 
 
+def feedback(visit: Visit) -> None:
+    visit.go("feedback")
+    visit.page.wait_for_selector(".suggestion img")
+
+
+def causes(visit: Visit) -> None:
+    visit.open("bench")
+    visit.page.wait_for_selector(".causes .badge")
+    visit.page.keyboard.press("e")
+
+
 def keys(visit: Visit) -> None:
     visit.open("kitchen")
     visit.page.keyboard.press("?")
@@ -114,6 +125,8 @@ SHOTS: dict[str, tuple[Callable[[Visit], None], bool]] = {
     "overlay": (overlay, True),
     "measure": (measure, False),
     "history": (history, False),
+    "feedback": (feedback, False),
+    "causes": (causes, False),
     "keys": (keys, True),
     "loop": (loop, False),
     "broken": (broken, True),
@@ -136,6 +149,8 @@ def prepare(folder: Path) -> None:
             if count > 1:
                 started.save((ROOT / "examples" / "tables" / f"{version}.py").read_text(encoding="utf-8"))
             started.wait_for(lambda state, count=count: rested(state) and len(state["runs"]) == count, 900)
+        started.send("POST", "/api/explain", {}, 202)
+        started.wait_for(lambda state: state["explanation"] and state["jobs"]["explain"]["state"] == "done", 1800)
     shutil.copy(ROOT / "examples" / "tables" / f"{VERSIONS[-1]}.py", folder / "procedure.py")
 
 

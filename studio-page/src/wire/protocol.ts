@@ -173,6 +173,8 @@ export interface Reference {
 export interface ReferenceExplanation {
   causes: { kind: string; text: string; evidence: unknown }[];
   regions: Region[];
+  /** Where the replica stood when they were compared: (normalised - centre) * scale. */
+  placement?: { centre: Triple; scale: number };
 }
 
 export interface Region {
