@@ -54,6 +54,8 @@ export interface Collection {
   run: string | null;
   threshold: number;
   measure: string;
+  /** When a replica is compatible, in words. */
+  criterion?: string;
   count: number;
   compatible: number;
   tiles: Tile[];
