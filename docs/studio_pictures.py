@@ -94,6 +94,18 @@ def difference(visit: Visit) -> None:
     tiles = visit.studio.get("/api/state")["collection"]["tiles"]
     visit.open(max((tile for tile in tiles if tile["distance"] is not None), key=lambda tile: tile["distance"])["slug"])
     visit.page.click("text=Difference")
+    visit.page.wait_for_selector(".sheet .agrees", state="attached")
+
+
+def feedback(visit: Visit) -> None:
+    visit.go("feedback")
+    visit.page.wait_for_selector(".suggestion img")
+
+
+def causes(visit: Visit) -> None:
+    visit.open("bench")
+    visit.page.wait_for_selector(".causes .badge")
+    visit.page.keyboard.press("e")
 
 
 def keys(visit: Visit) -> None:
@@ -113,6 +125,8 @@ SHOTS: dict[str, tuple[Callable[[Visit], None], bool]] = {
     "overlay": (overlay, True),
     "measure": (measure, False),
     "history": (history, False),
+    "feedback": (feedback, False),
+    "causes": (causes, False),
     "keys": (keys, True),
     "loop": (loop, False),
     "broken": (broken, True),
@@ -135,6 +149,8 @@ def prepare(folder: Path) -> None:
             if count > 1:
                 started.save((ROOT / "examples" / "tables" / f"{version}.py").read_text(encoding="utf-8"))
             started.wait_for(lambda state, count=count: rested(state) and len(state["runs"]) == count, 900)
+        started.send("POST", "/api/explain", {}, 202)
+        started.wait_for(lambda state: state["explanation"] and state["jobs"]["explain"]["state"] == "done", 1800)
     shutil.copy(ROOT / "examples" / "tables" / f"{VERSIONS[-1]}.py", folder / "procedure.py")
 
 
@@ -144,10 +160,10 @@ def prepare_flat(folder: Path) -> None:
     command = [sys.executable, "-m", "shapewright", "silhouettes", str(folder / "bundled")]
     subprocess.run([*command, "--out", str(folder / "references")], check=True, stdout=subprocess.DEVNULL)
     shutil.copy(ROOT / "examples" / "drawings" / "v5.py", folder / "procedure.py")
-    with studio(folder, *SETTINGS) as started:
+    with studio(folder, "--workers", "1") as started:
         started.wait_for(ready)
         started.send("POST", "/api/fit", {"fresh": True}, 202)
-        started.wait_for(rested, 900)
+        started.wait_for(rested, 1800)
 
 
 def take(started: Studio, browser: Any, name: str) -> None:

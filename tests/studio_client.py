@@ -72,6 +72,10 @@ class Studio:
         assert status == 200, body
         return json.loads(body)
 
+    def get_run(self, name: str) -> Any:
+        """The record of a run."""
+        return json.loads((self.folder / "runs" / name / "iteration.json").read_text())
+
     def send(self, method: str, path: str, body: Any, status: int = 200) -> Any:
         found, answer, _ = self.request(method, path, body)
         assert found == status, answer

@@ -93,7 +93,7 @@ def test_a_procedure_that_always_fails_is_given_up_soon(part):
         sw.ProcedureError, match=r"every one of the first 8 shapes failed: 8 x raised.*IndexError.*size="
     ):
         build_all(part, vectors(*["raises"] * 500), workers=2, limits=LIMITS)
-    with pytest.raises(sw.ProcedureError, match=r"every one of the first 3 shapes failed: 3 x time: it took longer"):
+    with pytest.raises(sw.ProcedureError, match=r"every one of the first 3 shapes failed: .*TimeLimit: it took longer"):
         build_all(part, vectors(*["endless"] * 500), workers=2, limits=LIMITS)
 
 

@@ -19,6 +19,7 @@ import trimesh
 
 from shapewright.procedure import load_procedure
 from shapewright.studio.frames import parse
+from shapewright.studio.project import Project
 from studio_client import PROCEDURE, Studio, ready, studio
 
 FIT = ("--samples", "40", "--epochs", "1", "--refine", "off", "--workers", "1", "--time-limit", "1")
@@ -244,6 +245,35 @@ def test_error_of_a_shape_has_its_line(mended: Studio) -> None:
     mended.next(lambda m: m["type"] == "mesh" and m["id"] == 101)
 
 
+def test_version_that_fails_for_every_shape_keeps_what_was_there(mended: Studio) -> None:
+    pictures = [tile["replica"] for tile in mended.get("/api/state")["collection"]["tiles"]]
+    mended.edit(
+        PROCEDURE.replace("    top = box", '    raise Infeasible("too wide")\n    top = box').replace(
+            "Range,", "Infeasible, Range,"
+        )
+    )
+    state = mended.wait_for(lambda s: any(p["count"] == 5 for p in s["problems"]))
+    (problem,) = state["problems"]
+    assert problem["kind"] == "infeasible" and len(problem["slugs"]) == 5 and "too wide" in problem["message"]
+    tiles = state["collection"]["tiles"]
+    assert [tile["replica"] for tile in tiles] == pictures and all(tile["stale"] for tile in tiles)
+
+
+def test_only_files_that_the_procedure_names_are_its_sources(mended: Studio) -> None:
+    project = Project.of(mended.folder)
+    before = project.fingerprint()
+    (mended.folder / "unrelated.py").write_text("x = 1")
+    assert project.fingerprint() == before
+    mended.edit("import helper_of_helper as h\n" + PROCEDURE, "broken")
+    named = project.fingerprint()
+    (mended.folder / "helper_of_helper.py").write_text("import third")
+    (mended.folder / "third.py").write_text("")
+    mended.wait_for(lambda s: s["procedure"]["state"] == "good")
+    whole = project.fingerprint()
+    (mended.folder / "third.py").write_text("y = 2")
+    assert len({before, named, whole, project.fingerprint()}) == 4
+
+
 def test_endless_loop_costs_a_message_with_its_line(mended: Studio) -> None:
     mended.edit(PROCEDURE.replace("    top = box", "    while shelf:\n        height += 1.0\n    top = box"))
     mended.say(type="evaluate", id=110, slug=None, parameters={"shelf": True})
@@ -331,7 +361,19 @@ def test_marks_are_kept(mended: Studio) -> None:
     pair = {"a": "ball", "b": "table-0", "same": False}
     mended.send("PUT", "/api/marks", [pair])
     assert mended.get("/api/state")["marks"] == [pair]
-    assert json.loads((mended.folder / "marks.json").read_text()) == [{"a": "ball", "b": "table 0", "same": False}]
+    path = mended.folder / "marks.json"
+    assert json.loads(path.read_text()) == [{"a": "ball", "b": "table 0", "same": False}]
+    noted = {"a": "gone", "b": "gone", "same": True, "run": "000", "measures": {"distance": 0.1}}
+    path.write_text(json.dumps([noted, {"a": "ball", "b": "table 0", "same": False, "why": "legs"}]))
+    mended.send("PUT", "/api/marks", [pair, {"a": "ball", "b": "ball", "same": True}])
+    first, second, third = json.loads(path.read_text())
+    assert first == noted and second["why"] == "legs" and third["same"]
+    run = mended.get("/api/state")["collection"]["run"]
+    if run:
+        recorded = {e["name"]: e for e in mended.get_run(run)["references"]}
+        assert third["run"] == run and third["measures"]["distance"] == recorded["ball"]["distance"]
+    mended.send("PUT", "/api/marks", [])
+    assert json.loads(path.read_text()) == [noted]
     mended.send("PUT", "/api/marks", [{"a": "ball", "b": "nobody", "same": True}], 422)
 
 
@@ -363,10 +405,21 @@ def test_pictures_for_browsers_without_webgl(fitted: Studio) -> None:
     assert fitted.request("GET", "/api/references/table-0/render?size=100000")[0] == 422
 
 
-def test_explanation_passes_through(fitted: Studio) -> None:
+def test_a_run_is_explained(fitted: Studio) -> None:
     assert fitted.request("GET", "/api/explanation")[0] == 404
+    fitted.send("POST", "/api/explain", {}, 202)
+    job = fitted.next(lambda m: m["type"] == "job" and m["job"]["state"] in ("done", "failed"), 200)["job"]
+    assert job["kind"] == "explain" and job["state"] == "done", job
+    assert len(job["stages"]) > 1 and job["result"] == {"run": fitted.get("/api/state")["collection"]["run"]}
+    assert fitted.next(lambda m: m["type"] == "explanation")["explanation"]
+    found = fitted.get("/api/explanation")
+    assert set(found["references"]) == {"ball", *(f"table-{i}" for i in range(4))}
+    assert found["references"]["ball"]["regions"] and "suggestions" in found
+
+
+def test_explanation_passes_through(fitted: Studio) -> None:
     run = fitted.folder / "runs" / fitted.get("/api/state")["collection"]["run"]
-    (run / "pictures").mkdir()
+    (run / "pictures").mkdir(exist_ok=True)
     (run / "pictures" / "s.png").write_bytes(b"\x89PNG")
     cause = {"kind": "range", "text": "t", "evidence": 1}
     told = {

@@ -218,7 +218,6 @@ def test_a_broken_file_is_told_and_mended(visit: Visit, fitted: dict[str, Any]) 
     tiles = page.locator(".tile").count()
     visit.studio.save(good.replace("def table(", "def table(("))
     page.wait_for_selector(".problems")
-    line = good.split("def table(")[0].count("\n") + 1
     assert "procedure.py:" in page.inner_text(".problems")
     assert page.locator(".tile").count() == tiles > 0
     assert page.is_disabled(".button.fit")
@@ -229,7 +228,6 @@ def test_a_broken_file_is_told_and_mended(visit: Visit, fitted: dict[str, Any]) 
     page.wait_for_selector(".problems:has-text('too thin')")
     raised = good.split("    thick =")[0].count("\n") + 1
     assert f"procedure.py:{raised}" in page.inner_text(".problems")
-    assert line < raised
     visit.studio.save(good)
     page.wait_for_selector(".problems", state="detached", timeout=60_000)
     visit.studio.wait_for(rested, 240)

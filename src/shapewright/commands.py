@@ -46,7 +46,7 @@ def explain(
     procedure, collection = procedure_of(run, iteration), references_of(run, iteration, references)
     try:
         with progress_bars(err) as listen:
-            suggest = _suggest if suggestions else None
+            suggest = suggestions_of if suggestions else None
             found = explain_iteration(procedure, collection, iteration, listen, cache_folder(), suggest, workers)
     except KeyboardInterrupt:
         err.print("stopped: the run is as it was")
@@ -101,11 +101,12 @@ def explanation_of(
     from shapewright.feedback.explanation import explain as explain_iteration
     from shapewright.feedback.record import write_into
 
-    record = explain_iteration(procedure, references, iteration, progress, cache_folder(), _suggest).record
+    record = explain_iteration(procedure, references, iteration, progress, cache_folder(), suggestions_of).record
     return lambda folder: write_into(folder, record)
 
 
-def _suggest(*arguments: Any) -> list[dict[str, Any]]:
+def suggestions_of(*arguments: Any) -> list[dict[str, Any]]:
+    """Suggestions as records; arguments: see ``feedback.suggestions.suggest``."""
     from shapewright.feedback.suggestions import suggest
 
     return [suggestion.record for suggestion in suggest(*arguments)]

@@ -59,6 +59,36 @@ def mark(run: Path, name: str, same: bool) -> Path:
     return path
 
 
+def pairs(project: Path) -> list[tuple[str, str, bool]]:
+    """What a project's folder holds: a, b, and whether they are the same, of a pair that was judged twice the last.
+
+    Raises RunError for a file that cannot be read.
+    """
+    judged = {(entry["a"], entry["b"]): bool(entry["same"]) for entry in _read(project / MARKS)}
+    return [(a, b, same) for (a, b), same in judged.items()]
+
+
+def replace_pairs(project: Path, wanted: Sequence[tuple[str, str, bool]], known: set[str], run: Path | None) -> None:
+    """Make the marks of known references these; a judgement that stays keeps all that is noted of it.
+
+    run: that the new ones are judged by, which notes what it measured. Raises RunError.
+    """
+    path = project / MARKS
+    old = {(a, b): same for a, b, same in pairs(project)}
+    new = {(a, b): same for a, b, same in wanted}
+    kept = [
+        entry
+        for entry in _read(path)
+        if not {entry["a"], entry["b"]} <= known or new.get((entry["a"], entry["b"])) == old[entry["a"], entry["b"]]
+    ]
+    found = {entry["name"]: entry for entry in read_record(run)["references"]} if run else {}
+    for (a, b), same in new.items():
+        if old.get((a, b)) != same:
+            noted = {"run": run.name, "measures": _measures(found[a])} if run and a == b and a in found else {}
+            kept.append({"a": a, "b": b, "same": same, **noted})
+    _write(path, kept)
+
+
 def read_marks(run: Path, measured: bool = True) -> list[Mark]:
     """The marks of a run's project. measured: only those whose distance is known, from the file or from this run.
 

@@ -13,6 +13,7 @@ from multiprocessing.connection import Connection, Listener
 from pathlib import Path
 from typing import Any
 
+from shapewright.building.clock import COMPILING
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.parameters import Parameters
 from shapewright.procedure import ProcedureError
@@ -78,6 +79,15 @@ class WorkerProcess:
         """What the worker answers, or the failure that ended it; stop: leave off waiting, the worker is then lost."""
         try:
             self.connection.send(request)
+        except OSError:
+            return self._death()
+        answer: Any = COMPILING
+        while answer == COMPILING:
+            answer = self._wait(stop)
+        return answer
+
+    def _wait(self, stop: threading.Event) -> Any:
+        try:
             patience = 1.25 * self.limits.seconds + 0.5
             while not self.connection.poll(min(0.2, patience)):
                 patience -= 0.2

@@ -8,9 +8,11 @@ import pickle
 import signal
 import sys
 import time
+from collections.abc import Callable
 from multiprocessing.connection import Client, Connection
 from pathlib import Path
 
+from shapewright.building.clock import COMPILING, TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.parameters import Parameters
 from shapewright.procedure import Infeasible, Procedure, ProcedureError, author_line, load_procedure
@@ -33,7 +35,7 @@ def serve(connection: Connection) -> None:
     with _naming(names):
         while True:
             requests: list[Parameters] = connection.recv()
-            connection.send(_build_some(procedure, requests, limits))
+            connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
 
 
 def _naming(names: str) -> contextlib.AbstractContextManager[None]:
@@ -45,12 +47,18 @@ def _naming(names: str) -> contextlib.AbstractContextManager[None]:
     return named_by("rule")
 
 
-def _build_some(procedure: Procedure, requests: list[Parameters], limits: Limits) -> list[Build]:
+def _build_some(
+    procedure: Procedure, requests: list[Parameters], limits: Limits, compiling: Callable[[], object]
+) -> list[Build]:
     """Build in order until a fraction of the time limit has passed, so that a hang is noticed soon."""
     started = time.perf_counter()
     builds: list[Build] = []
     for parameters in requests:
-        builds.append(build(procedure, parameters, limits))
+        try:
+            with time_limit(limits.seconds, compiling):
+                builds.append(build(procedure, parameters, limits))
+        except TimeLimit as error:
+            builds.append(Build(parameters, None, Failure("time", author_line(error, procedure.path)), limits.seconds))
         if time.perf_counter() - started > _ANSWER_WITHIN * limits.seconds:
             break
     return builds

@@ -11,11 +11,11 @@ import contextlib
 import pickle
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable
 from multiprocessing.connection import Client, Connection
 from pathlib import Path
-from types import FrameType
 
+from shapewright.building.clock import COMPILING, TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.building.worker import build, limit_memory
 from shapewright.parameters import Parameters
@@ -31,32 +31,12 @@ MOST_TRIANGLES = 400_000
 """More than a page can turn smoothly."""
 
 
-class TimeLimit(BaseException):
-    """The author's code took too long. Not an Exception, so that the author's ``except Exception`` lets it pass."""
-
-
-@contextlib.contextmanager
-def time_limit(seconds: float) -> Iterator[None]:
-    """Raise TimeLimit in the block after so many seconds; on systems without timers the block takes what it takes."""
-    if not hasattr(signal, "setitimer"):
-        yield
-        return
-
-    def expire(number: int, frame: FrameType | None) -> None:
-        raise TimeLimit(f"it took longer than {seconds:g} s")
-
-    signal.signal(signal.SIGALRM, expire)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+def try_build(
+    procedure: Procedure, values: Parameters, limits: Limits, compiling: Callable[[], object] = lambda: None
+) -> Built:
+    """Build the shape at these values, carried over into the procedure's space. compiling: see ``time_limit``."""
     try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-
-
-def try_build(procedure: Procedure, values: Parameters, limits: Limits) -> Built:
-    """Build the shape at these values, carried over into the procedure's space."""
-    try:
-        with time_limit(limits.seconds):
+        with time_limit(limits.seconds, compiling):
             parameters = procedure.space.carry(values)
             made = build(procedure, parameters, limits)
             if isinstance(made.shape, Mesh) and len(made.shape.faces) > MOST_TRIANGLES:
@@ -87,7 +67,7 @@ def serve(connection: Connection) -> None:
     limit_memory(limits.memory_mb)
     connection.send(version)
     while True:
-        connection.send(try_build(procedure, connection.recv(), limits))
+        connection.send(try_build(procedure, connection.recv(), limits, lambda: connection.send(COMPILING)))
 
 
 def _version(procedure: Procedure) -> Version:

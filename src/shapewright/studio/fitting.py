@@ -8,10 +8,15 @@ import signal
 import sys
 import threading
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 from shapewright.progress import Progress
+from shapewright.studio.listing import Origin, listing
+
+if TYPE_CHECKING:
+    from shapewright.references import Collection
 
 PREDICTIONS = "predictions.json"
 """In a run's folder: what the network said of every reference before the search, and how sure it was."""
@@ -46,23 +51,26 @@ def tell(events: TextIO, **event: Any) -> None:
     events.flush()
 
 
+def collection(origin: Origin) -> Collection:
+    """The references of a project, but for those that lead out of it. Raises CollectionError."""
+    from shapewright.references import Collection
+
+    listed = listing(origin)
+    whole = Collection.load(origin.source, up=origin.up, front=origin.front)
+    outside = {path.absolute() for path in listed.skipped}
+    inside = tuple(r for r in whole.references if r.path is None or r.path.absolute() not in outside)
+    return replace(whole, references=inside, skipped={**whole.skipped, **listed.skipped})
+
+
 def fit(request: Mapping[str, Any], events: TextIO) -> str:
     """Fit as the request says and save the run; returns its name."""
     from shapewright.authoring import fit as iterate
     from shapewright.iteration import Iteration
     from shapewright.procedure import load_procedure
-    from shapewright.references import Collection
     from shapewright.settings import Settings
-    from shapewright.studio.listing import Origin, listing
     from shapewright.workspace import cache_folder, next_run, previous_run
 
-    origin = Origin(**request["origin"])
-    procedure = load_procedure(request["procedure"])
-    listed = listing(origin)
-    whole = Collection.load(origin.source, up=origin.up, front=origin.front)
-    outside = {path.absolute() for path in listed.skipped}
-    inside = tuple(r for r in whole.references if r.path is None or r.path.absolute() not in outside)
-    references = Collection(inside, {**whole.skipped, **listed.skipped}, whole.source)
+    procedure, references = load_procedure(request["procedure"]), collection(Origin(**request["origin"]))
     previous = Iteration.load(request["previous"]) if request["previous"] else None
 
     def listen(progress: Progress) -> None:

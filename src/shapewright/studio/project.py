@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-import json
+import re
 import secrets
 import shutil
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from shapewright.studio.listing import Origin
 from shapewright.workspace import runs
@@ -124,10 +123,11 @@ class Project:
     def write_copy(self, text: str) -> Path:
         """Put a text beside the procedure under a new name, and return its path."""
         stem = self.procedure.stem
-        taken = {path.name for path in self.folder.iterdir()}
+        home = self.procedure.parent
+        taken = {path.name for path in home.iterdir()}
         name = next(name for i in range(1, len(taken) + 2) if (name := f"{stem}-{i}.py") not in taken)
-        _write(self.folder / name, text, "\n")
-        return self.folder / name
+        _write(home / name, text, "\n")
+        return home / name
 
     def scratch(self) -> Path:
         """The folder for what may be thrown away; git passes over it."""
@@ -139,26 +139,17 @@ class Project:
             (folder / ".gitignore").write_text("*\n")
         return folder
 
-    def read_marks(self) -> list[dict[str, Any]]:
-        """The pairs that the author marked as same or different, by name; none where the file cannot be read."""
-        try:
-            pairs = json.loads((self.folder / "marks.json").read_text(encoding="utf-8"))
-            return [{"a": str(p["a"]), "b": str(p["b"]), "same": bool(p["same"])} for p in pairs]
-        except (OSError, ValueError, KeyError, TypeError):
-            return []
-
-    def write_marks(self, pairs: list[dict[str, Any]]) -> None:
-        _write(self.folder / "marks.json", json.dumps(pairs, indent=1) + "\n", "\n")
-
     def fingerprint(self) -> str:
-        """Changes whenever a Python file of the project's folder does; the author's helper modules count."""
-        total = hashlib.blake2b(digest_size=8)
-        for path in sorted(self.folder.glob("*.py")):
-            try:
-                total.update(repr((path.name, path.read_bytes())).encode())
-            except OSError:  # a file that is being replaced, or that may not be read
-                total.update(path.name.encode())
-        return total.hexdigest()
+        """Changes whenever the procedure does, or a Python file beside it that it names, or that such a file names."""
+        texts = {path.stem: _read_bytes(path) for path in self.procedure.parent.glob("*.py")}
+        used: set[str] = set()
+        found = {self.procedure.stem}
+        while found:
+            used |= found
+            words = {word for stem in found for word in re.findall(rb"\w+", texts.get(stem, b""))}
+            found = {stem for stem in texts if stem.encode() in words} - used
+        named = repr([(stem, texts.get(stem)) for stem in sorted(used)])
+        return hashlib.blake2b(named.encode(), digest_size=8).hexdigest()
 
 
 def digest(text: str) -> str:
@@ -179,3 +170,11 @@ def _write(path: Path, text: str, newline: str) -> None:
     except OSError as error:
         partial.unlink(missing_ok=True)
         raise ProjectError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def _read_bytes(path: Path) -> bytes:
+    """Empty for a file that is just being replaced, or that may not be read."""
+    try:
+        return path.read_bytes()
+    except OSError:
+        return b""

@@ -8,6 +8,7 @@ from collections.abc import Coroutine, Mapping
 from importlib.metadata import version
 from typing import Any
 
+from shapewright.marks import pairs, replace_pairs
 from shapewright.metric import Metric, fidelity, light_field
 from shapewright.references.errors import CollectionError
 from shapewright.studio.authored import Authored
@@ -21,12 +22,12 @@ from shapewright.studio.problems import Problem
 from shapewright.studio.project import Project, ProjectError
 from shapewright.studio.showing import Showing
 from shapewright.studio.watch import watch
-from shapewright.workspace import cache_folder
+from shapewright.workspace import RunError, cache_folder
 
 _STAGES: Mapping[str, Stage] = {"most similar samples": "early", "predicted": "predicted"}
 _PATIENCE = 2.0
 """Seconds for which a fit after a save waits until the replicas of the new version are shown."""
-_SOURCES = ("bench", "procedure", "references", "fit", "explain", "export", "shapes")
+_SOURCES = ("bench", "project", "procedure", "references", "fit", "explain", "export", "shapes")
 Message = dict[str, Any]
 
 
@@ -107,8 +108,13 @@ class Session:
     def marks(self) -> list[Message]:
         """The pairs that were marked, by slug, of references that are there."""
         slugs = self.showing.slugs()
-        there = [mark for mark in self.project.read_marks() if mark["a"] in slugs and mark["b"] in slugs]
-        return [{"a": slugs[mark["a"]], "b": slugs[mark["b"]], "same": mark["same"]} for mark in there]
+        try:
+            judged = pairs(self.project.folder)
+        except RunError as error:
+            self._problems["project"] = [Problem("project", str(error))]
+            return []
+        self._problems.pop("project", None)
+        return [{"a": slugs[a], "b": slugs[b], "same": same} for a, b, same in judged if a in slugs and b in slugs]
 
     def _procedure(self) -> Message:
         stale = any(tile.stale for tile in self.showing.board.tiles.values())
@@ -157,9 +163,10 @@ class Session:
         return self.preferences.record()
 
     def set_marks(self, marks: list[Message]) -> None:
-        """Raises KeyError for a slug that is not there."""
+        """Replace the marks of the references that are there, all of whose slugs are known. Raises RunError."""
         names = {slug: tile.name for slug, tile in self.showing.board.tiles.items()}
-        self.project.write_marks([{"a": names[m["a"]], "b": names[m["b"]], "same": m["same"]} for m in marks])
+        wanted = [(names[mark["a"]], names[mark["b"]], mark["same"]) for mark in marks]
+        replace_pairs(self.project.folder, wanted, set(names.values()), self.showing.run)
         self.pages.publish("marks", marks=self.marks())
 
     async def fit(self, fresh: bool = False) -> None:
@@ -183,7 +190,8 @@ class Session:
         """Explain the run that is shown. Raises Refused."""
         if self.showing.run is None:
             raise Refused("there is no run to explain yet; fit first")
-        self._start("explain", ["-m", "shapewright", "explain", str(self.showing.run), "--json"], {})
+        request = {"run": str(self.showing.run), "origin": vars(self.project.origin)}
+        self._start("explain", ["-m", "shapewright.studio.explaining"], request)
 
     def export(self, request: Message) -> None:
         """Pack what the request names. Raises Refused."""

@@ -15,11 +15,11 @@ _STEP, _LONGEST = 30, 300
 
 
 async def watch(project: Project, source: Callable[[], object], references: Callable[[], object]) -> None:
-    """Call ``source`` after a Python file in the project's folder changed, ``references`` after a reference did."""
+    """Call ``source`` after a Python file beside the procedure changed, ``references`` after a reference did."""
     shapes = Path(project.origin.source)
     home = shapes if shapes.is_dir() else shapes.parent
     async with asyncio.TaskGroup() as group:
-        group.create_task(_watch(project.folder, False, _is_source, source))
+        group.create_task(_watch(project.procedure.parent, False, _is_source, source))
         if home.is_dir():
             group.create_task(_watch(home, True, _is_shape, references))
 

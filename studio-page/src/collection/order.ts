@@ -3,6 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import { collection, tiles } from "../state/studio";
 import type { Slug, Tile } from "../wire/protocol";
+import { at } from "./focus";
 
 export type Filter = "all" | "incompatible" | "compatible" | "limit" | "failed";
 export type Sort = "groups" | "farthest" | "nearest" | "name" | "worse" | "better";
@@ -81,6 +82,11 @@ export const sections = computed((): Section[] => {
 
 /** All shown tiles in order, those that are folded away too: what one leafs through in the inspector. */
 export const leafed = computed(() => sections.value.flatMap((section) => section.tiles.map((tile) => tile.slug)));
+
+/** The one tile that Tab leads to. */
+export const entry = computed(() =>
+  at.value && leafed.value.includes(at.value) ? at.value : (leafed.value[0] ?? null),
+);
 
 export const searching = computed(() => search.value.trim() !== "");
 

@@ -9,6 +9,7 @@ import { fixed } from "../ui/numbers";
 import { Dot, Picture } from "../ui/picture";
 import type { Tile } from "../wire/protocol";
 import { at } from "./focus";
+import { entry } from "./order";
 import { watch } from "./visible";
 
 const STAGES: Partial<Record<Tile["stage"], [string, string]>> = {
@@ -32,7 +33,7 @@ function Card({ tile, children }: Props) {
   const { slug } = tile;
   const button = useRef<HTMLButtonElement>(null);
   useEffect(() => watch(button.current!), [slug]);
-  const tabIndex = useComputed(() => (at.value === slug ? 0 : -1));
+  const tabIndex = useComputed(() => (entry.value === slug ? 0 : -1));
   return (
     <article class={`tile ${tile.stale ? "stale" : ""}`}>
       <button

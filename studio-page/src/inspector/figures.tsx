@@ -1,7 +1,7 @@
 /** How near the replica is now, and was as found. */
 
 import { mark } from "../state/actions";
-import { collection, marks } from "../state/studio";
+import { collection, dimension, marks } from "../state/studio";
 import { Button } from "../ui/controls";
 import { fixed, plural, significant } from "../ui/numbers";
 import { Dot } from "../ui/picture";
@@ -26,7 +26,7 @@ export function Figures() {
                 ? "compatible"
                 : "incompatible"}
           <small>
-            {collection.value.measure || "distance"}, threshold {fixed(collection.value.threshold, 2)}
+            {collection.value.criterion ?? `${collection.value.measure}, threshold ${collection.value.threshold}`}
           </small>
         </span>
         {moved !== null && Math.abs(moved) >= 0.0005 && (
@@ -41,10 +41,12 @@ export function Figures() {
           <dt>IoU</dt>
           <dd>{fixed(failed ? null : now?.iou)}</dd>
         </div>
-        <div title="Mean distance of the surfaces, as part of the largest extent">
-          <dt>Chamfer</dt>
-          <dd>{fixed(failed ? null : now?.chamfer, 4)}</dd>
-        </div>
+        {dimension.value === 3 && (
+          <div title="Mean distance of the surfaces, as part of the largest extent">
+            <dt>Chamfer</dt>
+            <dd>{fixed(failed ? null : now?.chamfer, 4)}</dd>
+          </div>
+        )}
         <div title="Time that the procedure took">
           <dt>Built in</dt>
           <dd>{outcome.value ? `${significant(outcome.value.milliseconds, 2)} ms` : "–"}</dd>

@@ -32,6 +32,8 @@ function outline(open: Stage, { side, centre, size, axes }: Region): string {
   const seen = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => {
     const corner = new Vector3(...centre);
     axes.forEach((axis, k) => corner.addScaledVector(new Vector3(...axis), ((i >> k) & 1 ? 0.5 : -0.5) * size[k]!));
+    const placement = reference.value?.explanation?.placement;
+    if (side === "surplus" && placement) corner.divideScalar(placement.scale).add(new Vector3(...placement.centre));
     return open.project(corner, half);
   });
   return EDGES.map(([i, j]) => [seen[i], seen[j]] as const)

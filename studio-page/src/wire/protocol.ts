@@ -54,6 +54,8 @@ export interface Collection {
   run: string | null;
   threshold: number;
   measure: string;
+  /** When a replica is compatible, in words. */
+  criterion?: string;
   count: number;
   compatible: number;
   tiles: Tile[];
@@ -173,6 +175,8 @@ export interface Reference {
 export interface ReferenceExplanation {
   causes: { kind: string; text: string; evidence: unknown }[];
   regions: Region[];
+  /** Where the replica stood when they were compared: (normalised - centre) * scale. */
+  placement?: { centre: Triple; scale: number };
 }
 
 export interface Region {
