@@ -80,6 +80,7 @@ def test_a_saved_run_reads_back_the_same(iteration, tmp_path):
         )
         assert mine.replica.vertices == pytest.approx(theirs.replica.vertices, abs=1e-6)
         assert np.array_equal(mine.replica.faces, theirs.replica.faces)
+        assert mine.replica.labels == theirs.replica.labels
     assert loaded.pictures == iteration.pictures
     assert (
         loaded.save(tmp_path / "copy").joinpath("parameters.csv").read_text() == (folder / "parameters.csv").read_text()

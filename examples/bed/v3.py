@@ -111,7 +111,7 @@ def side_rail(box):
 @procedure
 def beds(
     width: Annotated[float, Range(0.4, 1.0)] = 0.7,
-    height: Annotated[float, Range(0.15, 0.45)] = 0.25,
+    height: Annotated[float, Range(0.15, 0.4)] = 0.25,
     clearance: Annotated[float, Range(0.05, 0.6)] = 0.3,
     head: Annotated[float, Range(0.06, 0.45)] = 0.2,
     foot: Annotated[float, Range(0.02, 0.35)] = 0.06,
@@ -122,7 +122,7 @@ def beds(
     blanket: bool = False,
     rails: bool = False,
     bunk: bool = False,
-    storey: Annotated[float, Range(0.35, 0.6, when=lambda p: p.bunk)] = 0.5,
+    storey: Annotated[float, Range(0.42, 0.6, when=lambda p: p.bunk)] = 0.5,
 ):
     """A bed, a cot or a bunk bed, of length 1.
 

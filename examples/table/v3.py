@@ -75,7 +75,7 @@ def panels(box, leg):
     thickness = section(box, leg)[0]
     yield from (end.label("panels") for end in box.ends("x", thickness))
     yield box.inset(x=0.3 * thickness).tag("behind")
-    yield box.inset(x=0.3 * thickness, z=(0.02 * box.depth, 0.1 * box.depth)).tag("between")
+    yield box.inset(x=0.3 * thickness, z=0.04 * box.depth).tag("between")
 
 
 @rules.rule("base", when=lambda p: p.base == "splayed")
@@ -138,9 +138,9 @@ def three_drawers(box):
 
 
 @rules.rule("below", when=lambda p: p.tiers > 0)
-def tiers(box, level, tiers, tier):
+def tiers(box, level, tiers):
     for space in box.inset(y=(level * box.height, 0)).repeat("y", tiers):
-        yield space.split("y", min(0.03 if tier == "shelf" else 0.06, 0.25 * space.height))[0].tag("tier")
+        yield space.split("y", min(0.035, 0.25 * space.height))[0].tag("tier")
 
 
 @rules.rule("below")
@@ -186,7 +186,7 @@ def table(
     thickness: Annotated[float, Range(0.012, 0.1)] = 0.03,
     overhang: Annotated[float, Range(0.0, 0.2, steps=OVERHANGS)] = 0.02,  # of width and depth
     leg: Annotated[float, Range(0.02, 0.18, steps=SECTIONS)] = 0.05,
-    splay: Annotated[float, Range(0.05, 0.2, when=lambda p: p.base == "splayed")] = 0.1,
+    splay: Annotated[float, Range(0.04, 0.2, when=lambda p: p.base == "splayed")] = 0.1,
     apron: Annotated[float, Range(0.0, 0.4, steps=APRONS, when=four_corners)] = 0.12,  # of the height below the top
     level: Annotated[float, Range(0.0, 0.5, when=lambda p: room_for_tiers(p) and p.tiers > 0)] = 0.2,
     tiers: Annotated[int, Range(0, 2, when=room_for_tiers)] = 0,

@@ -21,6 +21,8 @@ Extras: TypeAlias = Mapping[str, Any]
 
 _NAME = "shape"
 _REST = "unlabelled"
+NO_LABEL = (_NAME, _REST)
+"""Names in files of faces without a label."""
 
 
 def encode(shape: Shape, format: Format = "glb", extras: Extras | None = None) -> bytes:

@@ -6,7 +6,7 @@ import csv
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from shapewright.comparison.grouping import Group
-from shapewright.export import svg
+from shapewright.export import NO_LABEL, encode
 from shapewright.metric import Metric, light_field
 from shapewright.prediction.predictor import Predictor
 from shapewright.references.svg import read_svg
@@ -22,7 +22,7 @@ from shapewright.rendering.thumbnails import thumbnails
 from shapewright.report import write_report
 from shapewright.results import Result, file_names, from_record, replica_path, to_record
 from shapewright.settings import Settings
-from shapewright.shapes import Mesh, Shape
+from shapewright.shapes import Mesh, Shape, concatenate
 from shapewright.workspace import FORMAT, RECORD, new_folder, read_record
 
 Pictures = Mapping[str, tuple[bytes, bytes | None]]
@@ -163,11 +163,20 @@ class Iteration:
         for result in self.results:
             slug = slugs[result.name]
             if result.replica is not None and (path := replica_path(result.replica, slug)):
-                data = _glb(result.replica) if isinstance(result.replica, Mesh) else svg(result.replica)
-                (folder / path).write_bytes(data)
+                (folder / path).write_bytes(encode(result.replica, "glb", self._origin(result)))
             for kind, picture in zip(("reference", "replica"), pictures[result.name], strict=True):
                 if picture is not None:
                     (folder / "thumbnails" / f"{slug}.{kind}.png").write_bytes(picture)
+
+    def _origin(self, result: Result) -> dict[str, Any]:
+        """What a replica's file says of where it comes from."""
+        return {
+            "procedure": self.procedure.get("name", "shape"),
+            "parameters": result.parameters,
+            "reference": result.name,
+            "seed": self.settings.seed,
+            "shapewright": self.versions.get("shapewright", ""),
+        }
 
     def _write_csv(self, path: Path) -> None:
         names = [parameter["name"] for parameter in self.procedure["parameters"]]
@@ -198,14 +207,6 @@ def _read_pictures(folder: Path, slug: str) -> tuple[bytes, bytes | None]:
     )
 
 
-def _glb(mesh: Mesh) -> bytes:
-    import trimesh
-
-    exported = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).export(file_type="glb")
-    assert isinstance(exported, bytes)
-    return exported
-
-
 def _read_replica(folder: Path, entry: Mapping[str, Any]) -> Shape | None:
     import trimesh
 
@@ -213,5 +214,11 @@ def _read_replica(folder: Path, entry: Mapping[str, Any]) -> Shape | None:
         return None
     if entry["replica"].endswith(".svg"):
         return read_svg((folder / entry["replica"]).read_bytes())[0]
-    mesh = trimesh.load_mesh(folder / entry["replica"], process=False)
-    return Mesh(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+    scene = trimesh.load_scene(folder / entry["replica"], process=False)
+    parts = {name: Mesh(part.vertices, part.faces) for name, part in scene.geometry.items()}
+    whole = concatenate([part if name in NO_LABEL else part.label(name) for name, part in parts.items()])
+    if len(parts) == 1:
+        return whole
+    # A file holds each part's vertices apart from the others'; equal ones are one again.
+    vertices, index = np.unique(whole.vertices, axis=0, return_inverse=True)
+    return replace(whole, vertices=vertices, faces=index.ravel()[whole.faces])

@@ -195,6 +195,8 @@ def _transform(weights: Floats, areas: Floats, cells: Ints, basis: Floats, art: 
             upper_right, upper_left = weights[v, _RADIUS + y, _RADIUS + x], weights[v, _RADIUS + y, _RADIUS - x]
             lower_right, lower_left = weights[v, _RADIUS - y, _RADIUS + x], weights[v, _RADIUS - y, _RADIUS - x]
             upper, lower = upper_right + upper_left, lower_right + lower_left
+            if upper == 0.0 and lower == 0.0:  # weights are not negative: nothing of the silhouette is here
+                continue
             upper_odd, lower_odd = upper_right - upper_left, lower_right - lower_left
             for k in range(_TERMS):
                 sums[v, 0, k] += (upper + lower) * basis[n, 0, k]
