@@ -2,11 +2,12 @@
 
 from typing import Annotated, Literal
 
-from shapewright import Range, When, procedure
+from shapewright import Range, procedure
 from shapewright.modelling.drawing import box, line, polygon, spline, union
 
 LEANING = ("leaning", "bowed")
-STANDING = ("straight", *LEANING, "trestles")
+BARS = ("bar", "two bars")
+BRACES = ("brace down", "brace up")
 
 
 @procedure
@@ -24,18 +25,15 @@ def table(
     plate: Annotated[float, Range(0.1, 1.0, when=lambda p: p.base == "column")] = 0.5,
     plate_height: Annotated[float, Range(0.005, 0.3, when=lambda p: p.base == "column")] = 0.04,
     plate_slope: Annotated[float, Range(0.0, 1.0, when=lambda p: p.base == "column")] = 0.0,
-    middle: Annotated[bool, When(lambda p: p.base in STANDING or p.base == "crossed")] = False,
-    apron: Annotated[float, Range(0.0, 0.35, when=lambda p: p.base in STANDING)] = 0.0,
-    bars: Annotated[int, Range(0, 2, when=lambda p: p.base in STANDING)] = 0,
-    level: Annotated[float, Range(0.0, 0.95, when=lambda p: p.base in STANDING and p.bars > 0)] = 0.2,
-    bar: Annotated[float, Range(0.01, 0.2, when=lambda p: p.base in STANDING and p.bars > 0)] = 0.04,
-    second: Annotated[float, Range(0.0, 0.9, when=lambda p: p.base in STANDING and p.bars > 1)] = 0.5,
-    brace: Annotated[Literal["none", "down", "up"], When(lambda p: p.base == "straight")] = "none",
-    brace_level: Annotated[float, Range(0.1, 0.9, when=lambda p: p.base == "straight" and p.brace != "none")] = 0.5,
-    body: bool = False,
-    body_width: Annotated[float, Range(0.3, 1.0, when=lambda p: p.body)] = 0.8,
-    body_top: Annotated[float, Range(0.3, 1.0, when=lambda p: p.body)] = 0.9,
-    body_bottom: Annotated[float, Range(0.0, 0.8, when=lambda p: p.body)] = 0.4,
+    extra: Literal["none", "apron", "bar", "two bars", "middle leg", "brace down", "brace up", "body"] = "none",
+    apron: Annotated[float, Range(0.03, 0.4, when=lambda p: p.extra == "apron")] = 0.1,  # of the height under the top
+    level: Annotated[float, Range(0.0, 0.95, when=lambda p: p.extra in BARS)] = 0.2,
+    bar: Annotated[float, Range(0.01, 0.2, when=lambda p: p.extra in BARS)] = 0.04,
+    second: Annotated[float, Range(0.0, 0.9, when=lambda p: p.extra == "two bars")] = 0.5,
+    brace_level: Annotated[float, Range(0.1, 0.9, when=lambda p: p.extra in BRACES)] = 0.5,
+    body_width: Annotated[float, Range(0.3, 1.0, when=lambda p: p.extra == "body")] = 0.8,
+    body_top: Annotated[float, Range(0.3, 1.0, when=lambda p: p.extra == "body")] = 0.9,
+    body_bottom: Annotated[float, Range(0.0, 0.8, when=lambda p: p.extra == "body")] = 0.4,
 ):
     top = min(top, 0.9 * height)
     under = height - top
@@ -52,18 +50,18 @@ def table(
                 parts += both(tapered((x - spread / 2, under), (x - spread / 2 + toe, 0), leg, leg * foot))
         else:
             parts += both(tapered((x, under), (x + splay, 0), leg, leg * foot, bow))
-        if middle:
+        if extra == "middle leg":
             parts.append(box((leg, under), at=(0, under / 2)))
-        if base in STANDING:
-            if apron > 0:
-                parts.append(box((2 * x, apron * under), at=(0, under - apron * under / 2)))
-            for place in (level, second)[:bars]:
-                reach = x + splay * (1 - place) if base != "trestles" else x - spread / 2
-                parts.append(box((2 * max(reach, leg / 2), bar), at=(0, max(place * under, bar / 2))))
-            if base == "straight" and brace != "none":
-                ends = (brace_level * under, under) if brace == "up" else (under, brace_level * under)
-                parts += both(line((x, ends[0]), (0, ends[1]), width=leg))
-    if body:
+        if extra == "apron":
+            parts.append(box((2 * x, apron * under), at=(0, under - apron * under / 2)))
+        if extra in BARS:
+            for place in (level, second)[: BARS.index(extra) + 1]:
+                reach = max(x + splay * (1 - place), leg / 2)
+                parts.append(box((2 * reach, bar), at=(0, max(place * under, bar / 2))))
+        if extra in BRACES:
+            ends = (brace_level * under, under) if extra == "brace up" else (under, brace_level * under)
+            parts += both(line((x, ends[0]), (0, ends[1]), width=leg))
+    if extra == "body":
         low, high = sorted((body_bottom * under, max(body_top, body_bottom + 0.02) * under))
         parts.append(box((body_width, high - low), at=(0, (low + high) / 2)))
     shape = union(*parts)
