@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import mimetypes
 from collections.abc import AsyncIterator, Awaitable, Callable
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,7 @@ from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
-from starlette.routing import Mount, Route, WebSocketRoute
-from starlette.staticfiles import StaticFiles
+from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from shapewright.studio import details, wishes
@@ -42,6 +42,8 @@ Handler = Callable[[Session, Request], Awaitable[Any]]
 
 def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
     """The application. page: folder of the built page."""
+    # What the system's registry says of .js may be wrong on Windows; browsers then refuse the page's modules.
+    mimetypes.add_type("text/javascript", ".js")
 
     @contextlib.asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
@@ -66,12 +68,19 @@ def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
         headers = {"cache-control": "no-store"}
         return HTMLResponse(text.replace("__CSP_NONCE__", request.scope["nonce"]), headers=headers)
 
+    async def asset(request: Request) -> Response:
+        home = (page / "assets").resolve()
+        file = (home / request.path_params["path"]).resolve()
+        if not file.is_relative_to(home) or not file.is_file():
+            raise Missing("there is no such file")
+        return FileResponse(file, headers=_KEEP)
+
     async def live(socket: WebSocket) -> None:
         await _converse(session, socket)
 
     routes = [
         Route("/", index),
-        Mount("/assets", StaticFiles(directory=page / "assets", check_dir=False)),
+        Route("/assets/{path:path}", asset),
         WebSocketRoute("/api/live", live),
         api("state", _state),
         api("pictures/{digest}.png", _picture),

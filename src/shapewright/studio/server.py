@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import mimetypes
 import socket
 import threading
 import webbrowser
@@ -42,8 +41,6 @@ def serve(
         )
     listening = _listen(host, port)
     access = Access(host, listening.getsockname()[1])
-    # What the system's registry says of .js may be wrong on Windows; browsers then refuse the page's modules.
-    mimetypes.add_type("text/javascript", ".js")
     config = uvicorn.Config(
         make_app(Session(project, preferences), access),
         log_level="warning",
