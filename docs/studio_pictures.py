@@ -88,6 +88,8 @@ def history(visit: Visit) -> None:
 
 def drawings(visit: Visit) -> None:
     visit.page.click(".fold")
+    visit.page.wait_for_load_state("networkidle")
+    visit.page.wait_for_timeout(1500)
 
 
 def difference(visit: Visit) -> None:
