@@ -62,6 +62,7 @@ def test_ends_that_several_misfits_rest_on_are_moved_alone_and_together(table, t
     needed = narrowed(height, table.space, [{"height": 0.93}, {"height": 1.07}])
     assert needed["height"] == pytest.approx((0.4, 1.1, 0.6))
     assert loads(tmp_path, height, needed).space["height"].steps == 8
+    assert narrowed(height, table.space, [{"height": 1.59}])["height"][1] <= 1.6
     (drawers,) = [each for each in ranges if each.title == "A wider Range of drawers"]
     assert loads(tmp_path, drawers).space["drawers"].high == 4
 

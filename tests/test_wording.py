@@ -6,7 +6,8 @@ import pytest
 import shapewright as sw
 from shapewright.feedback.edit import free_name, with_rule
 from shapewright.feedback.pieces import Piece
-from shapewright.feedback.wording import WHOLE, Quantity, addition, drawing_in, number, removal
+from shapewright.feedback.relations import WHOLE
+from shapewright.feedback.wording import Quantity, addition, drawing_in, number, removal
 
 TABLE = """from typing import Annotated
 

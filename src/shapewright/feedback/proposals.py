@@ -13,7 +13,8 @@ from shapewright.feedback.edit import EditError, free_name, with_range, with_rul
 from shapewright.feedback.hypotheses import REST, Hypothesis
 from shapewright.feedback.pieces import Piece
 from shapewright.feedback.ranges import End, pressed
-from shapewright.feedback.wording import WHOLE, Frames, Rule, addition, drawing_in, number, removal
+from shapewright.feedback.relations import WHOLE, Frames
+from shapewright.feedback.wording import Rule, addition, drawing_in, number, removal
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 from shapewright.shapes import Floats, Mesh
 
@@ -73,7 +74,8 @@ def proposals(
 def narrowed(proposal: Proposal, space: ParameterSpace, values: Sequence[Parameters]) -> Ranges:
     """Ranges that the references need, with a margin, given the parameters that were found for them."""
     if proposal.rule is None:
-        return {name: _needed(space[name], [float(v[name]) for v in values]) for name, _ in proposal.ends}
+        wide = proposal.ranges
+        return {name: _needed(space[name], [float(v[name]) for v in values], wide[name]) for name in wide}
     return {
         q.name: _around(np.array([float(v[q.name]) for v in values]), q.whole, q.values, proposal.ranges[q.name])
         for q in proposal.rule.quantities
@@ -156,13 +158,16 @@ def _long(parameter: Parameter, sides: set[str]) -> tuple[float, float, float]:
     )
 
 
-def _needed(parameter: Parameter, values: Sequence[float]) -> tuple[float, float, float]:
+def _needed(
+    parameter: Parameter, values: Sequence[float], wide: tuple[float, float, float]
+) -> tuple[float, float, float]:
+    """The old Range, as much longer as the values need with a margin, and no longer than the one that was tried."""
     assert isinstance(parameter, Scalar | Integer)
     low, high = min(values), max(values)
     margin = 0.03 * (high - low) if isinstance(parameter, Scalar) else 0.0
     return (
-        _down(low - margin) if low < parameter.low else parameter.low,
-        -_down(-high - margin) if high > parameter.high else parameter.high,
+        max(_down(low - margin), wide[0]) if low < parameter.low else parameter.low,
+        min(-_down(-high - margin), wide[1]) if high > parameter.high else parameter.high,
         parameter.default,
     )
 

@@ -194,13 +194,15 @@ def _confirmed(
         if not made or _falls_apart(trial, {m.row: m.replica for m in some}):
             continue
         ranges = narrowed(idea, procedure.space, list(made.values()))
-        source = idea.write(ranges)
-        with changed(source, procedure, judge) as new:
-            final = tried(new, made, judge, [], judge.settings.seed)
-            lost = {row: made[row] for row in made if row not in final.compatible}
-            if lost:
-                again = tried(new, lost, judge, [SEARCH], judge.settings.seed)
-                final = final.joined(again)
+        try:
+            source = idea.write(ranges)
+            with changed(source, procedure, judge) as new:
+                final = tried(new, made, judge, [], judge.settings.seed)
+                lost = {row: made[row] for row in made if row not in final.compatible}
+                if lost:
+                    final = final.joined(tried(new, lost, judge, [SEARCH], judge.settings.seed))
+        except (EditError, ProcedureError):
+            continue
         if final.compatible:
             found.append(_Tried(idea, ranges, source, final))
     return found

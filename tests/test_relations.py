@@ -1,0 +1,52 @@
+import numpy as np
+
+from shapewright.feedback.pieces import Piece
+from shapewright.feedback.relations import NEW, WHOLE, best_frame, equal_sizes
+
+HEIGHTS = (0.5, 0.7, 0.9)
+FRAMES = [
+    {
+        WHOLE: np.array([(-0.5, 0, -0.3), (0.5, height, 0.3)]),
+        "top": np.array([(-0.5, height - 0.05, -0.3), (0.5, height, 0.3)]),
+        "column": np.array([(-0.05, 0, -0.05), (0.05, height - 0.05, 0.05)]),
+    }
+    for height in HEIGHTS
+]
+
+
+def pieces(low_high, **more):
+    return [Piece("box", *np.array(low_high(height), dtype=float), **more) for height in HEIGHTS]
+
+
+def test_the_frame_that_leaves_least_free():
+    sleeve = pieces(lambda h: [(-0.08, 0, -0.08), (0.08, h - 0.05, 0.08)])
+    frame, along = best_frame(sleeve, FRAMES)
+    assert along[1].size == "full" and {axis.size for axis in (along[0], along[2])} <= {"free", "full"}
+    shelf = pieces(lambda h: [(-0.5, 0.2 * h, -0.3), (0.5, 0.2 * h + 0.02, 0.3)])
+    frame, along = best_frame(shelf, FRAMES)
+    assert frame == WHOLE and [axis.size for axis in along] == ["full", "free", "full"]
+    assert along[1].place == "free" and abs(along[1].offsets - 0.2).max() < 0.03
+
+
+def test_a_piece_reaches_from_part_to_part():
+    plain = [{name: each[name] for name in (WHOLE, "top")} for each in FRAMES]
+    post = pieces(lambda h: [(0.2, 0, -0.02), (0.24, h - 0.05, 0.02)])
+    _, along = best_frame(post, plain)
+    assert along[1].ends == ((WHOLE, 0), ("top", 0)) and along[1].size == "full"
+    with_foot = [{**each, f"{NEW}foot": np.array([(-0.3, 0, -0.3), (0.3, 0.1, 0.3)])} for each in plain]
+    stem = pieces(lambda h: [(-0.02, 0.1, -0.02), (0.02, h - 0.05, 0.02)])
+    assert best_frame(stem, with_foot)[1][1].ends == ((f"{NEW}foot", 1), ("top", 0))
+
+
+def test_mirrored_pieces_stand_at_the_sides_or_off_the_middle():
+    sides = pieces(lambda h: [(0.45, 0, -0.3), (0.5, h, 0.3)], mirrored=(True, False))
+    assert best_frame(sides, FRAMES)[1][0].place == "high"
+    inner = pieces(lambda h: [(0.2, 0, -0.3), (0.25, h, 0.3)], mirrored=(True, False))
+    along = best_frame(inner, FRAMES)[1][0]
+    assert along.place == "free" and abs(along.offsets - 0.45).max() < 1e-9
+
+
+def test_equal_sizes_are_one_quantity():
+    bar = pieces(lambda h: [(-0.3, 0.2, -0.02), (0.3, 0.2 + 0.04, 0.02)])
+    _, along = best_frame(bar, FRAMES)
+    assert equal_sizes(bar, along) == {2: 1}
