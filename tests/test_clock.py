@@ -80,7 +80,7 @@ def test_compiling_does_not_count(compiler: ModuleType) -> None:
     told: list[None] = []
     with time_limit(0.25, lambda: told.append(None)):
         compiler.compile()
-    assert 2 <= len(told) <= 5
+    assert 20 <= len(told) <= 60
     with pytest.raises(TimeLimit), time_limit(0.25):
         compiler.compile()
         while True:

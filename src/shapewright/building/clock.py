@@ -10,9 +10,10 @@ from collections.abc import Callable, Iterator
 from types import FrameType
 
 COMPILING = "compiling"
-"""What a worker tells its parent when the time is up and numba is compiling: the clock starts again."""
+"""What a worker tells its parent while numba is compiling: the clock stands still."""
 MOST = 120.0
 """Seconds that are granted for compiling, at most."""
+_TICKS = 10
 _NUMBA = f"{os.sep}numba{os.sep}"
 
 
@@ -24,23 +25,26 @@ class TimeLimit(BaseException):
 def time_limit(seconds: float, compiling: Callable[[], object] = lambda: None) -> Iterator[None]:
     """Raise TimeLimit in the block after so many seconds; on systems without timers the block takes what it takes.
 
-    The first shape of a procedure may need kernels that are compiled only once on a machine and then kept: where the
-    time is up while numba compiles, ``compiling`` is called instead, and the clock starts again.
+    The first shape of a procedure may need kernels that are compiled only once on a machine and then kept: of the ticks
+    of a clock, ten to the limit, those at which numba compiles do not count, and ``compiling`` is called.
     """
     if not hasattr(signal, "setitimer"):
         yield
         return
-    begun = time.monotonic()
+    begun, left = time.monotonic(), _TICKS
 
-    def expire(number: int, frame: FrameType | None) -> None:
+    def tick(number: int, frame: FrameType | None) -> None:
+        nonlocal left
         if time.monotonic() - begun < MOST and _compiles(frame):
             compiling()
-            signal.setitimer(signal.ITIMER_REAL, seconds)
-        else:
+            return
+        left -= 1
+        if left == 0:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
             raise TimeLimit(f"it took longer than {seconds:g} s")
 
-    before = signal.signal(signal.SIGALRM, expire)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    before = signal.signal(signal.SIGALRM, tick)
+    signal.setitimer(signal.ITIMER_REAL, seconds / _TICKS, seconds / _TICKS)
     try:
         yield
     finally:
