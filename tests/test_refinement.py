@@ -134,3 +134,22 @@ def test_only_what_is_nearly_compatible_is_explored_further():
     assert measured.count(0) in (5, 11) and measured.count(1) == 5
     costs = [np.abs(measure_against([target])([(0, post(**post.space.decode([0.5, 0.5, 0, 0.5])))])[0]).sum()]
     assert costs[0] > 400.0
+
+
+def test_where_an_earlier_search_ended_at_the_best_nothing_more_is_spent():
+    target = post(height=1.0, width=0.5, cap=0.9)
+    known = [{"height": 1.0, "width": 0.5, "form": "square", "cap": 0.88}]
+    start = inferred((0.2, 0.9, SURE, 0.1))
+    counts = []
+    with Workers(post, 1) as crew:
+        for new in (None, set(), {"height"}, {"never"}):
+            measured = []
+
+            def measure(pairs, measured=measured):
+                measured.extend(pairs)
+                return measure_against([target])(pairs)
+
+            (found,) = refine(post.space, start, crew, measure, QUICK, known=known, new=new)
+            counts.append(len(measured))
+            assert found["height"] == pytest.approx(1.0, abs=0.05)
+    assert counts[0] == counts[2] > counts[1] == counts[3] == 3

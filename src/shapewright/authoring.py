@@ -22,7 +22,7 @@ from shapewright.facing import quarter_turns
 from shapewright.iteration import Iteration, draw_pictures
 from shapewright.judge import Judge, judge_of
 from shapewright.learning import Lesson, learn, learn_more, limits_of
-from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.picture_judge import PictureJudge
 from shapewright.prediction.adaptive import around
 from shapewright.prediction.dataset import Dataset
@@ -78,7 +78,7 @@ def fit(
         found = _Found.none(len(references))
         if previous:
             found = _try(crew, judge, [values or procedure.space.defaults for values in known], found)
-        found = _replicate(procedure, crew, judge, lesson, settings, stages, found)
+        found = _replicate(procedure, crew, judge, lesson, settings, stages, found, _new(procedure.space, previous))
         for number in range(settings.rounds):
             centres = [build.parameters for build in found.builds if build]
             seed = settings.seed + number + 1
@@ -142,6 +142,17 @@ class _Found:
         return [build.parameters if build else values for build, values in zip(self.builds, otherwise, strict=True)]
 
 
+def _new(space: ParameterSpace, previous: Iteration | None) -> set[str] | None:
+    """Names of scalars that the previous iteration did not have, or not in this Range; None: it did not search.
+
+    Of other kinds all likely values are tried anyway.
+    """
+    if previous is None or previous.predictor is None or previous.settings.refine == "off":
+        return None
+    before = previous.predictor.space.parameters
+    return {parameter.name for parameter in space if isinstance(parameter, Scalar) and parameter not in before}
+
+
 def _carried(space: ParameterSpace, references: Collection, previous: Iteration | None) -> list[Parameters | None]:
     """The parameters that the previous iteration found for each reference, where it had it, in this space."""
     old = {result.name: result.parameters for result in previous} if previous else {}
@@ -165,8 +176,9 @@ def _replicate(
     settings: Settings,
     stages: Stages,
     found: _Found,
+    new: set[str] | None = None,
 ) -> _Found:
-    """Try what is predicted for each reference, and search on from there."""
+    """Try what is predicted for each reference, and search on from there; new: see ``refine``."""
     stages.begin("predict", len(found.builds))
     inferred = lesson.predictor.infer([reference.shape for reference in judge.references])
     predicted = lesson.predictor.decode(inferred)
@@ -189,6 +201,7 @@ def _replicate(
         [known[i] for i in rows],
         judge.goal,
         stages.step,
+        new=new,
     )
     vectors = found.parameters(predicted)
     for i, values in zip(rows, refined, strict=True):

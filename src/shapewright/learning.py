@@ -77,7 +77,8 @@ def learn(
     """
     space = procedure.space
     schedule = _schedule(settings, previous)
-    vectors = space.sample(settings.samples, seed=settings.seed)
+    count = min(settings.samples, settings.warm_samples) if previous else settings.samples
+    vectors = space.sample(count, seed=settings.seed)
     stages.begin("sample", len(vectors))
     builds = crew.build(vectors[:FIRST], give_up=True)
     kind = kind or kind_of(builds)

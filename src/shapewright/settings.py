@@ -19,7 +19,7 @@ class Settings:
     the shape's largest extent. cameras: "learned" moves them with the network, at the learning rate camera_rate, in
     radians and units of distance.
 
-    warm_epochs: training of a network that goes on from an earlier one. rounds: of adaptive sampling, each with
+    warm_epochs, warm_samples: of a network that goes on from an earlier one. rounds: of adaptive sampling, each with
     round_samples more samples around what was found for the references and warm_epochs more of training.
 
     facing: "given" takes references as they are, "found" turns each about the up axis by the quarter turns at which the
@@ -56,7 +56,8 @@ class Settings:
     camera_distance: float = 2.6
     cameras: Literal["fixed", "learned"] = "fixed"
     camera_rate: float = 0.03
-    warm_epochs: int = 6
+    warm_epochs: int = 5
+    warm_samples: int = 2000
     rounds: int = 0
     round_samples: int = 1000
     facing: Literal["given", "found"] = "given"

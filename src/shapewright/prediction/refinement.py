@@ -8,6 +8,7 @@ well. All references advance together, so that shapes are built and measured in 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -101,6 +102,11 @@ class _Search:
     best: Parameters | None = None
     cost: float = field(default=np.inf)
 
+    def settled(self, space: ParameterSpace, new: AbstractSet[str]) -> bool:
+        """Whether an earlier search ended at the best there is, and nothing that matters there is new."""
+        best = self.arms[0]
+        return best.known and best.residual is not None and not new & set(space.active(space.decode(best.centre)))
+
     def worth(self, near: float | None, goal: float | None) -> bool:
         """Whether a round for references near the goal is for this one; not where an earlier search ended already."""
         if near is None:
@@ -130,15 +136,17 @@ def refine(
     within: tuple[Floats, Floats] | None = None,
     spread: float = _SPREAD,
     enough: float = -np.inf,
+    new: AbstractSet[str] | None = None,
 ) -> list[Parameters]:
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
     inferred: for each parameter (N,) encoded scalars or (N, classes) probabilities, as ``Predictor.infer`` gives.
-    known: for each reference parameters to start from as well, such as those of the previous iteration. goal: the cost
-    up to which a reference counts as compatible; without it no round is spent on those that are near. within: the least
-    and the greatest encoded scalars of each reference, (N, P), the whole space by default. spread: of the first random
-    points, encoded. enough: a cost at which the search for a reference ends. The cost never rises above that of the
-    prediction. A reference's result does not depend on the other references.
+    known: for each reference parameters to start from as well. new: names of scalars that are new or other than when
+    the known ones were searched for; with it, no more is spent where these turn out the best and none is new. goal: the
+    cost up to which a reference counts as compatible; without it no round is spent on those that are near. within: the
+    least and the greatest encoded scalars of each reference, (N, P), the whole space by default. spread: of the first
+    random points, encoded. enough: a cost at which the search for a reference ends. The cost never rises above that of
+    the prediction. A reference's result does not depend on the other references.
     """
     count = len(inferred[0])
     widest = budget.rounds[0].combinations
@@ -154,6 +162,8 @@ def refine(
         asked: list[_Trial] = []
         for i, search in enumerate(searches):
             search.arms.sort(key=lambda arm: arm.cost)
+            if new is not None and search.settled(space, new):
+                continue
             if search.cost > enough and search.worth(turn.near, goal):
                 for arm in search.arms[: turn.combinations]:
                     arm.slopes = None if turn.afresh else arm.slopes
