@@ -67,23 +67,27 @@ class Judge:
 
     def search_costs(self, pairs: Sequence[tuple[int, Shape]]) -> list[float]:
         """Costs to search by: of a replica against the reference with that index, in the pose that it has."""
-        targets = {i: AlignedCost(d) for i, _ in pairs if (d := self.descriptors[i]) is not None}
+        targets = self._targets(pairs)
 
         def cost(pair: tuple[int, Shape]) -> float:
-            mesh = _mesh(pair[1])
-            return targets[pair[0]](mesh) if mesh and pair[0] in targets else np.inf
+            i, shape = pair
+            return targets[i](shape) if i in targets and isinstance(shape, Mesh) else np.inf
 
         return in_threads(cost, pairs, self.settings.workers)
 
     def search_residuals(self, pairs: Sequence[tuple[int, Shape]]) -> list[Floats | None]:
         """What the cost of each replica is made of: vectors whose sums of absolute values are the costs, smoothed."""
-        targets = {i: AlignedCost(d) for i, _ in pairs if (d := self.descriptors[i]) is not None}
+        targets = self._targets(pairs)
 
         def residual(pair: tuple[int, Shape]) -> Floats | None:
             i, shape = pair
             return targets[i].residual(shape) if i in targets and isinstance(shape, Mesh) else None
 
         return in_threads(residual, pairs, self.settings.workers)
+
+    def _targets(self, pairs: Sequence[tuple[int, Shape]]) -> dict[int, AlignedCost]:
+        """By index, the references of the pairs that can be compared."""
+        return {i: AlignedCost(d) for i in {i for i, _ in pairs} if (d := self.descriptors[i]) is not None}
 
     @property
     def goal(self) -> float:

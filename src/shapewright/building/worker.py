@@ -94,7 +94,8 @@ def limit_memory(megabytes: int) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (mapped + megabytes * 2**20, resource.RLIM_INFINITY))
 
 
-def main() -> None:
+def attend(serve: Callable[[Connection], None]) -> None:
+    """Connect to the parent, by the address in the arguments and the key on standard input, and serve it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     key = sys.stdin.buffer.read(32)
     with contextlib.suppress(EOFError, ConnectionError), Client(sys.argv[1], authkey=key) as connection:
@@ -102,4 +103,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    attend(serve)

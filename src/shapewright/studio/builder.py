@@ -7,17 +7,15 @@ library written in C) is killed by the parent.
 
 from __future__ import annotations
 
-import contextlib
 import pickle
-import signal
 import sys
 from collections.abc import Callable
-from multiprocessing.connection import Client, Connection
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 from shapewright.building.clock import COMPILING, TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure, Limits
-from shapewright.building.worker import build, limit_memory
+from shapewright.building.worker import attend, build, limit_memory
 from shapewright.parameters import Parameters
 from shapewright.procedure import Procedure, ProcedureError, author_line, load_procedure
 from shapewright.records import to_record
@@ -75,12 +73,5 @@ def _version(procedure: Procedure) -> Version:
     return Version(procedure.name, parameters, procedure.space.defaults)
 
 
-def main() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    key = sys.stdin.buffer.read(32)
-    with contextlib.suppress(EOFError, ConnectionError), Client(sys.argv[1], authkey=key) as connection:
-        serve(connection)
-
-
 if __name__ == "__main__":
-    main()
+    attend(serve)
