@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter
 
 from shapewright import metric
 from shapewright.building import Build
@@ -16,7 +16,7 @@ from shapewright.comparison import outline
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
 from shapewright.references import Collection
-from shapewright.rendering.ink import picture
+from shapewright.rendering.ink import coverage
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Shape
 from shapewright.threads import in_threads
@@ -24,7 +24,7 @@ from shapewright.threads import in_threads
 Floats = NDArray[np.float64]
 SMALL = 64
 """Pixels along the side of the pictures that are compared while searching."""
-SCALES = ((3.0, 4), (6.0, 8), (12.0, 16))
+SCALES = ((1.0, 2), (3.0, 4), (6.0, 8), (12.0, 16))
 """Their blurs, as standard deviations in pixels, and the pixels between the samples that are taken of each."""
 UNIT = 56.0
 """What a black pixel counts; sets what the search takes as small."""
@@ -116,13 +116,21 @@ class PictureJudge:
         return (reference, shape) if outline.silhouette(shape).any() else None
 
 
+def _lens(blur: float, step: int) -> Floats:
+    """(SMALL / step, SMALL): takes samples of a row of pixels, blurred; times what a sample stands for along it."""
+    centres = np.arange(SMALL // step)[:, None] * step + (step - 1) / 2.0
+    weights = np.exp(-0.5 * ((np.arange(SMALL) - centres) / blur) ** 2)
+    return np.asarray(weights * (step / (blur * math.sqrt(2.0 * math.pi))))
+
+
+_LENSES = tuple(_lens(*scale) for scale in SCALES)
+
+
 def _blurred(shape: Shape) -> Floats:
-    """(336,): a drawing at every one of the SCALES, in units of UNIT for each pixel of the picture."""
+    """(K,): a drawing at every one of the SCALES, in units of UNIT for each pixel of the picture."""
     assert isinstance(shape, Drawing)
-    sharp = picture(shape, SMALL, 8)[0] * (UNIT / 255.0)
-    return np.concatenate(
-        [gaussian_filter(sharp, blur, mode="constant")[s // 2 :: s, s // 2 :: s].ravel() * s**2 for blur, s in SCALES]
-    )
+    sharp = coverage(shape, SMALL) * UNIT
+    return np.concatenate([(lens @ sharp @ lens.T).ravel() for lens in _LENSES])
 
 
 def _describe(shape: Shape) -> outline.Outline | None:

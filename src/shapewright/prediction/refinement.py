@@ -24,6 +24,8 @@ Measure = Callable[[Sequence[tuple[int, Shape]]], Sequence[Floats | None]]
 """How replicas, each given with the index of its reference, differ from it: vectors (K,) whose sum of absolute values
 is the cost; None where it cannot be told."""
 
+_PROBE = 0.04
+
 
 @dataclass(frozen=True)
 class Round:
@@ -32,7 +34,8 @@ class Round:
     A combination is first built as it is, then once with each scalar moved a little; only from its third round on are
     there ``steps`` along the model of its residuals, and ``strays``, random points around its best. near: only for
     references whose cost is above the goal but at most so many times it, and only while it is. afresh: instead of steps
-    the scalars are each moved a little again, because the model has aged.
+    the scalars are each moved a little again, because the model has aged; by ``probe``, encoded. variants: the other
+    combinations give way to those that differ from the best one in one choice, and are built as it is.
     """
 
     combinations: int
@@ -40,13 +43,16 @@ class Round:
     strays: int = 0
     near: float | None = None
     afresh: bool = False
+    probe: float = _PROBE
+    variants: bool = False
 
 
 @dataclass(frozen=True)
 class Budget:
-    """How long to search."""
+    """How long to search. plain: how many of the likeliest combinations also start with scalars at their defaults."""
 
     rounds: tuple[Round, ...]
+    plain: int = 0
 
     def evaluations(self, scalars: int) -> int:
         """Shapes built for each reference, at most, where so many scalars are free."""
@@ -55,24 +61,47 @@ class Budget:
     def within(self, evaluations: float, scalars: int) -> Budget:
         """The first rounds that fit in so many shapes, at least one combination of one."""
         fit = int((np.cumsum(self._spent(scalars)) <= evaluations).sum())
-        return Budget(self.rounds[:fit] or (Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
+        if not fit:
+            return Budget((Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
+        return Budget(self.rounds[:fit], self.plain)
 
     def _spent(self, scalars: int) -> list[int]:
-        each = [1, scalars, *(scalars if r.afresh else r.steps + r.strays for r in self.rounds[2:])]
-        return [r.combinations * points for r, points in zip(self.rounds, each, strict=False)]
+        spent, fresh = [], True
+        for i, r in enumerate(self.rounds):
+            start = i == 0 or r.variants
+            spent.append(r.combinations * (1 if start else scalars if fresh or r.afresh else r.steps + r.strays))
+            fresh = start
+        return spent
 
 
 QUICK = Budget(
     (Round(8), Round(3), Round(2, 2, 2), *(Round(1, 2, 3),) * 2, *(Round(1, 2, 4, near=1.4),) * 12),
 )
 THOROUGH = Budget((Round(24), Round(12), *(Round(8, 2, 4),) * 3, *(Round(4, 2, 6),) * 6, *(Round(2, 2, 8),) * 20))
-_AGAIN = (Round(1, afresh=True), Round(1, 3))
-DRAWN = Budget((Round(10), Round(4), Round(4, 3), Round(2, afresh=True), Round(2, 3), *_AGAIN * 5))
-DRAWN_THOROUGH = Budget((Round(30), Round(12), Round(12, 3), *(Round(5, afresh=True), Round(5, 3)) * 3, *_AGAIN * 8))
-"""Drawings are built and measured quickly, but what pictures say changes more from place to place."""
+_AGAIN, _FINELY = ((Round(1, afresh=True, probe=probe), Round(1, 3)) for probe in (_PROBE, 0.01))
+_PAIR = (Round(2, afresh=True), Round(2, 3))
+DRAWN = Budget(
+    (
+        Round(12),
+        Round(4),
+        Round(4, 3),
+        *_PAIR,
+        Round(16, variants=True),
+        Round(3),
+        Round(3, 3),
+        *_AGAIN * 3,
+        *_FINELY * 2,
+    ),
+    plain=4,
+)
+_VARIED = (Round(16, variants=True), Round(5), Round(5, 3), *_PAIR * 2)
+DRAWN_THOROUGH = Budget(
+    (Round(24), Round(8), Round(8, 3), *_PAIR * 2, *_AGAIN * 2, *_VARIED * 2, *_AGAIN * 4, *_FINELY * 4), plain=8
+)
+"""Drawings are built and measured quickly, but what pictures say changes more from place to place, and a part that is
+missing changes too little of them for the predicted choices to be trusted."""
 _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1
-_PROBE = 0.04
 _FLOORS = (20.0, 1000.0)
 _LOCAL = 0.1
 """How far a point may lie from the best one for the linear model to learn from it."""
@@ -153,7 +182,9 @@ def refine(
     low, high = within or (np.zeros((count, len(space))), np.ones((count, len(space))))
     searches = []
     for i in range(count):
-        arms = [_Arm(centre, spread=spread) for centre in likeliest(space, [column[i] for column in inferred], widest)]
+        centres = likeliest(space, [column[i] for column in inferred], widest - budget.plain)
+        centres += [_plain(space, centre, low[i], high[i]) for centre in centres[: budget.plain]]
+        arms = [_Arm(centre, spread=spread) for centre in centres]
         if known and (given := known[i]) is not None:
             arms = [*arms[: max(1, widest - 1)], _Arm(space.encode(given), known=True, spread=spread)]
         searches.append(_Search(arms, np.random.default_rng([seed, i]), low[i], high[i]))
@@ -165,6 +196,8 @@ def refine(
             if new is not None and search.settled(space, new):
                 continue
             if search.cost > enough and search.worth(turn.near, goal):
+                if turn.variants:
+                    search.arms = [search.arms[0], *_variants(space, search.arms[0])]
                 for arm in search.arms[: turn.combinations]:
                     arm.slopes = None if turn.afresh else arm.slopes
                     asked += [_Trial(i, arm, point) for point in _propose(space, arm, turn, search)]
@@ -196,6 +229,24 @@ def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], co
     return list(unique.values())[:count]
 
 
+def _plain(space: ParameterSpace, centre: Floats, low: Floats, high: Floats) -> Floats:
+    """The same choices, and all scalars at their defaults."""
+    scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
+    return np.where(scalars, np.clip(space.encode(space.defaults), low, high), centre)
+
+
+def _variants(space: ParameterSpace, arm: _Arm) -> list[_Arm]:
+    """Arms that start where this one is, but for one choice that matters there."""
+    active = set(space.active(space.decode(arm.centre)))
+    points = []
+    for column, parameter in enumerate(space):
+        for k in range(parameter.classes if parameter.name in active else 0):
+            if k != arm.centre[column]:
+                points.append(arm.centre.copy())
+                points[-1][column] = k
+    return [_Arm(point, spread=arm.spread) for point in points]
+
+
 def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search) -> Iterator[Floats]:
     """Points inside the limits: the arm's centre, then one for each free scalar, then steps and strays."""
     if arm.residual is None:
@@ -208,14 +259,17 @@ def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search) -> 
     if arm.slopes is None:
         for p in np.flatnonzero(free):
             point = arm.centre.copy()
-            point[p] += _PROBE if point[p] + _PROBE <= search.high[p] else -_PROBE
+            point[p] += turn.probe if point[p] + turn.probe <= search.high[p] else -turn.probe
             yield point
         return
+    slopes = arm.slopes[free]
     for k in range(turn.steps):
         reach = arm.reach * 0.4**k
-        low = np.where(free, np.clip(search.low - arm.centre, -reach, 0.0), 0.0)
-        high = np.where(free, np.clip(search.high - arm.centre, 0.0, reach), 0.0)
-        yield arm.centre + bounded_step(arm.slopes, arm.residual, low, high, _FLOORS[k % len(_FLOORS)])
+        low = np.clip(search.low - arm.centre, -reach, 0.0)[free]
+        high = np.clip(search.high - arm.centre, 0.0, reach)[free]
+        point = arm.centre.copy()
+        point[free] += bounded_step(slopes, arm.residual, low, high, _FLOORS[k % len(_FLOORS)])
+        yield point
     for _ in range(turn.strays):
         stray = search.rng.standard_normal(len(free)) * arm.spread
         yield np.where(free, np.clip(arm.centre + stray, search.low, search.high), arm.centre)
