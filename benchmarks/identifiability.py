@@ -10,6 +10,7 @@ exceed alone, and the share of samples where it is faint: less than FAINT alone.
 import argparse
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
 from shapewright import Infeasible, Mesh, Procedure, load_procedure
@@ -18,7 +19,7 @@ from shapewright.rendering.raster import render
 
 STEP, REACH = 0.05, 0.33
 FAINT = {True: 0.3, False: 1.5}  # of a scalar, of another parameter
-SUPERSAMPLE = 4
+SUPERSAMPLE = 8
 
 
 def main() -> None:
@@ -73,17 +74,23 @@ def changes(procedure: Procedure, values: Parameters, mesh: Mesh) -> list[tuple[
     shapes = [mesh.normalised(), *(shape.normalised() for _, shape in made)]
     pictures = render(shapes, supersample=SUPERSAMPLE, threads=1) / 255.0
     deltas = (pictures[1:] - pictures[0]).reshape(len(made), -1)
+    products = deltas @ deltas.T
     slopes = {variant[0]: i for i, (variant, _) in enumerate(made) if not space[variant[0]].classes}
     for i, ((name, to, _), _) in enumerate(made):
-        basis = deltas[[j for other, j in slopes.items() if other != name]].T
-        change = float(np.linalg.norm(deltas[i]))
-        alone = change
-        if basis.size and change > 0.0:
-            q, r = np.linalg.qr(basis)
-            fitted = basis @ lsq_linear(r + 1e-9 * np.eye(len(r)), q.T @ deltas[i], (-REACH / STEP, REACH / STEP)).x
-            alone = float(np.linalg.norm(deltas[i] - fitted))
-        rows.append((name, change, min(alone, change), to))
+        alone = remainder(products, i, [j for other, j in slopes.items() if other != name])
+        rows.append((name, float(np.sqrt(products[i, i])), alone, to))
     return rows
+
+
+def remainder(products: NDArray[np.float64], i: int, others: list[int]) -> float:
+    """The length of vector i less the combination of others, each at most REACH of its Range, that comes nearest."""
+    size = products[i, i]
+    if not others or size == 0.0:
+        return float(np.sqrt(size))
+    inner, with_i = products[np.ix_(others, others)], products[others, i]
+    root = np.linalg.cholesky(inner + 1e-9 * np.eye(len(others)))
+    shares = lsq_linear(root.T, np.linalg.solve(root, with_i), (-REACH / STEP, REACH / STEP)).x
+    return float(np.sqrt(max(size - 2.0 * shares @ with_i + shares @ inner @ shares, 0.0)))
 
 
 def _spelt(value: object) -> str:
