@@ -80,7 +80,7 @@ def test_every_part_is_labelled(base):
 def test_further_parts_come_with_their_parameters():
     table = load(VERSIONS[-1])
     assert "shelf" in table(tiers=2).labels
-    assert all("stretchers" in table(tiers=1, tier=kind).labels for kind in ("frame", "H", "cross"))
+    assert all("stretchers" in table(tiers=1, tier=kind).labels for kind in ("rails", "cross"))
     assert "back" in table(base="panels", back=True).labels
     drawers = [count_faces(table(base="panels", cabinets=count), "drawers") for count in (0, 1, 2)]
     assert drawers[0] == 0 < drawers[1] < drawers[2]

@@ -49,13 +49,13 @@ def sled(box, leg):
 
 @grammar.rule("base", when=lambda p: p.base == "pedestal")
 def pedestal(box, leg):
-    yield box.sub((leg, None, leg)).fill(cylinder, segments=16).label("column")
+    yield box.sub((1.5 * leg, None, 1.5 * leg)).fill(cylinder, segments=16).label("column")
     yield box.sub((0.7 * box.width, 0.04, 0.7 * box.width), anchor=(0.5, 0, 0.5)).fill(cylinder).label("foot")
 
 
 @grammar.rule("base")
 def star(box, leg, feet):
-    yield box.sub((leg, None, leg)).fill(cylinder, segments=16).label("column")
+    yield box.sub((1.5 * leg, None, 1.5 * leg)).fill(cylinder, segments=16).label("column")
     yield box.sub((None, 0.05, box.width), anchor=(0.5, 0, 0.5)).fill(spokes, count=feet).label("foot")
 
 
@@ -87,10 +87,11 @@ def stretchers_at_the_sides(box, stretchers):
 
 @grammar.rule("above")
 def back_and_arms(box, back_thickness, lean, curve):
-    sagitta = box.width * math.tan(math.radians(curve) / 4) / 2
+    sagitta = curve * min(box.width, box.depth)
+    angle = math.degrees(4 * math.atan(2 * sagitta / box.width))
     leaning = (0, 0, 0), (0, 0, -lean * box.height)
     back = box.sub((None, None, back_thickness), anchor=(0.5, 0, 0))
-    yield back.bend(curve, "x", towards="z", fixed=0.5).path(*leaning).tag("back")
+    yield back.bend(angle, "x", towards="z", fixed=0.5).path(*leaning).tag("back")
     yield box.inset(z=(sagitta, 0)).path(*leaning).tag("arms")
 
 
@@ -128,24 +129,29 @@ def solid_arms(box, arm_height, back_thickness):
         yield side.split("y", arm_height * box.height, ...)[0].label("arm")
 
 
+def below(p):
+    """The height of what the seat stands on."""
+    return 0 if p.base == "plinth" else p.seat_height * (1 - p.seat_thickness)
+
+
 @procedure
 def chair(
     width: Annotated[float, Range(0.3, 1.4)] = 0.5,
-    depth: Annotated[float, Range(0.3, 1.2)] = 0.5,
-    seat_height: Annotated[float, Range(0.25, 0.75)] = 0.48,
-    seat_thickness: Annotated[float, Range(0.04, 0.9, when=lambda p: p.base != "plinth")] = 0.12,
-    back_thickness: Annotated[float, Range(0.02, 0.25)] = 0.05,
+    depth: Annotated[float, Range(0.35, 1.2)] = 0.5,
+    seat_height: Annotated[float, Range(0.25, 0.7)] = 0.48,
+    seat_thickness: Annotated[float, Range(0.05, 0.65, when=lambda p: p.base != "plinth")] = 0.12,
+    back_thickness: Annotated[float, Range(0.02, 0.2)] = 0.05,
     lean: Annotated[float, Range(0, 0.4)] = 0.15,
-    curve: Annotated[float, Range(0, 75)] = 20,
+    curve: Annotated[float, Range(0, 0.2)] = 0.04,  # the rise of its arc, as a part of the width or the depth
     leg: Annotated[
-        float, Range(0.025, 0.12, when=lambda p: p.base != "plinth" or p.rails > 0 or p.arms == "open")
+        float, Range(0.03, 0.12, when=lambda p: p.base != "plinth" or p.rails > 0 or p.arms == "open")
     ] = 0.06,
     splay: Annotated[float, Range(0, 0.3, when=lambda p: p.base == "legs")] = 0.05,
-    gap: Annotated[float, Range(0.25, 0.75, when=lambda p: p.rails > 0)] = 0.5,
+    gap: Annotated[float, Range(0.3, 0.75, when=lambda p: p.rails > 0)] = 0.5,
     arm_height: Annotated[float, Range(0.15, 0.8, when=lambda p: p.arms != "none")] = 0.4,
     rails: Annotated[int, Range(0, 4)] = 2,
     slats: Annotated[int, Range(0, 4, when=lambda p: p.rails == 1)] = 0,
-    stretchers: Annotated[int, Range(0, 3, when=lambda p: p.base == "legs")] = 0,
+    stretchers: Annotated[int, Range(0, 3, when=lambda p: p.base == "legs" and below(p) > 0.15)] = 0,
     feet: Annotated[int, Range(3, 6, when=lambda p: p.base == "star")] = 5,
     base: Literal["legs", "sled", "pedestal", "star", "plinth"] = "legs",
     arms: Literal["none", "open", "solid"] = "none",

@@ -99,7 +99,7 @@ def table(
     depth: Annotated[float, Range(0.28, 1.0)] = 0.6,
     thickness: Annotated[float, Range(0.012, 0.12)] = 0.03,
     overhang: Annotated[float, Range(0.0, 0.35)] = 0.03,  # of width and depth
-    leg: Annotated[float, Range(0.015, 0.24)] = 0.05,
+    leg: Annotated[float, Range(0.015, 0.24, when=lambda p: p.base != "chest")] = 0.05,
     apron: Annotated[float, Range(0.0, 0.5, when=frames)] = 0.1,  # of the height below the top
     level: Annotated[float, Range(0.0, 0.6, when=lambda p: frames(p) and p.shelf)] = 0.3,
     oval: bool = False,

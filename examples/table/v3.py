@@ -7,11 +7,12 @@ from shapewright import Range, When, procedure
 from shapewright.modelling.grammar import Grammar
 from shapewright.modelling.solids import extrude, turned_leg
 
-# Sizes are sampled where most tables are.
-HEIGHTS = (0.18, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0, 1.2, 1.4, 1.6)
-OVERHANGS = (0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.13, 0.16, 0.2)
-SECTIONS = (0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.09, 0.11, 0.14, 0.18)
-APRONS = (0.0, 0.04, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.4)
+# Sizes are sampled where most tables are. The least are such that a change of them is seen in 64 pixels.
+HEIGHTS = (0.24, 0.28, 0.32, 0.36, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0, 1.15, 1.3, 1.5)
+OVERHANGS = (0.015, 0.02, 0.025, 0.035, 0.05, 0.07, 0.09, 0.12, 0.15, 0.18)
+SECTIONS = (0.025, 0.035, 0.045, 0.055, 0.065, 0.08, 0.095, 0.11, 0.135, 0.16)
+APRONS = (0.05, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.35)
+BAR = 0.035  # how high shelves and bars are, and how thick bars
 
 rules = Grammar()
 
@@ -24,9 +25,9 @@ def top_and_base(box, thickness, overhang, oval, base):
     below, top = box.split("y", ..., thickness)
     yield (top.round() if oval else top).label("top")
     if base in ("column", "star"):
-        margin = 2 * overhang
+        margin = 1.5 * overhang
     else:  # corners under an oval top are those of the largest rectangle inside it, or a little closer
-        inside = 0.16 if oval else 0.0
+        inside = 0.15 if oval else 0.0
         margin = inside + overhang * (1 - 2 * inside)
     yield below.inset(x=margin * box.width, z=margin * box.depth).tag("base")
 
@@ -37,14 +38,14 @@ def top_and_base(box, thickness, overhang, oval, base):
 @rules.rule("base", when=lambda p: p.base == "column")
 def column_on_plate(box, leg, oval):
     plate, column = box.split("y", 0.05 * box.height, ...)
-    column = column.sub((leg, None, leg))
+    column = column.sub((1.5 * leg, None, 1.5 * leg))
     yield (plate.round() if oval else plate).label("foot")
     yield (column.round() if oval else column).label("column")
 
 
 @rules.rule("base", when=lambda p: p.base == "star")
 def column_on_feet(box, leg):
-    yield box.sub((leg, None, leg)).inset(y=(0.12 * box.height, 0)).fill(turned_leg).label("column")
+    yield box.sub((1.5 * leg, None, 1.5 * leg)).inset(y=(0.12 * box.height, 0)).fill(turned_leg).label("column")
     yield box.sub((None, 0.4 * box.height, None), anchor=(0.5, 0, 0.5)).fill(arched_feet).label("foot")
 
 
@@ -72,10 +73,10 @@ def post_on_foot(box, leg):
 
 @rules.rule("base", when=lambda p: p.base == "panels")
 def panels(box, leg):
-    thickness = section(box, leg)[0]
+    thickness = 0.6 * leg
     yield from (end.label("panels") for end in box.ends("x", thickness))
-    yield box.inset(x=0.3 * thickness).tag("behind")
-    yield box.inset(x=0.3 * thickness, z=0.04 * box.depth).tag("between")
+    yield box.inset(x=0.5 * thickness).tag("behind")
+    yield box.inset(x=0.5 * thickness, z=0.04 * box.depth).tag("between")
 
 
 @rules.rule("base", when=lambda p: p.base == "splayed")
@@ -109,7 +110,7 @@ def section(box, leg):
 
 @rules.rule("behind", when=lambda p: p.back)
 def back(box):
-    yield box.sub((None, 0.6 * box.height, 0.04 * box.depth), anchor=(0.5, 1, 0.3)).label("back")
+    yield box.sub((None, 0.75 * box.height, 0.04 * box.depth), anchor=(0.5, 1, 0.3)).label("back")
 
 
 @rules.rule("behind")
@@ -120,8 +121,7 @@ def no_back(box):
 @rules.rule("between")
 def apron(box, apron, cabinets):
     below, board = box.split("y", ..., apron * box.height)
-    if apron > 0:
-        yield board.label("apron")
+    yield board.label("apron")
     yield below.tag("below")
     if cabinets == 3:
         yield below.tag("cabinet")
@@ -140,7 +140,7 @@ def three_drawers(box):
 @rules.rule("below", when=lambda p: p.tiers > 0)
 def tiers(box, level, tiers):
     for space in box.inset(y=(level * box.height, 0)).repeat("y", tiers):
-        yield space.split("y", min(0.035, 0.25 * space.height))[0].tag("tier")
+        yield space.split("y", BAR)[0].tag("tier")
 
 
 @rules.rule("below")
@@ -154,17 +154,16 @@ def shelf(box):
 
 
 @rules.rule("tier", when=lambda p: p.tier == "cross")
-def cross(box, leg):
-    width, depth = section(box, 0.6 * leg)
-    across, along = box.width - width, box.depth - depth
+def cross(box):
+    across, along = box.width - 0.4 * BAR, box.depth - 0.4 * BAR
     for turn in 1, -1:
-        bar = box.sub((math.hypot(across, along), None, depth))
+        bar = box.sub((math.hypot(across, along), None, BAR))
         yield bar.rotate(turn * math.degrees(math.atan2(along, across))).label("stretchers")
 
 
 @rules.rule("tier")
-def rails(box, leg):
-    yield from (rail.label("stretchers") for rail in box.rails(section(box, 0.6 * leg)))
+def rails(box):
+    yield from (rail.label("stretchers") for rail in box.rails(BAR))
 
 
 def four_corners(p):
@@ -172,7 +171,7 @@ def four_corners(p):
 
 
 def room_for_tiers(p):
-    return p.base == "legs" or (p.base == "panels" and p.cabinets == 0)
+    return p.height > 0.3 and (p.base == "legs" or (p.base == "panels" and p.cabinets == 0))
 
 
 def room_for_back(p):
@@ -181,14 +180,14 @@ def room_for_back(p):
 
 @procedure
 def table(
-    height: Annotated[float, Range(0.18, 1.6, steps=HEIGHTS)] = 0.7,  # width is 1
+    height: Annotated[float, Range(0.24, 1.5, steps=HEIGHTS)] = 0.7,  # width is 1
     depth: Annotated[float, Range(0.28, 1.0)] = 0.6,
-    thickness: Annotated[float, Range(0.012, 0.1)] = 0.03,
-    overhang: Annotated[float, Range(0.0, 0.2, steps=OVERHANGS)] = 0.02,  # of width and depth
-    leg: Annotated[float, Range(0.02, 0.18, steps=SECTIONS)] = 0.05,
+    thickness: Annotated[float, Range(0.015, 0.1)] = 0.03,
+    overhang: Annotated[float, Range(0.015, 0.18, steps=OVERHANGS)] = 0.02,  # of width and depth
+    leg: Annotated[float, Range(0.025, 0.16, steps=SECTIONS)] = 0.05,
     splay: Annotated[float, Range(0.04, 0.2, when=lambda p: p.base == "splayed")] = 0.1,
-    apron: Annotated[float, Range(0.0, 0.4, steps=APRONS, when=four_corners)] = 0.12,  # of the height below the top
-    level: Annotated[float, Range(0.0, 0.5, when=lambda p: room_for_tiers(p) and p.tiers > 0)] = 0.2,
+    apron: Annotated[float, Range(0.05, 0.35, steps=APRONS, when=four_corners)] = 0.12,  # of the height below the top
+    level: Annotated[float, Range(0.0, 0.45, when=lambda p: room_for_tiers(p) and p.tiers > 0)] = 0.2,
     tiers: Annotated[int, Range(0, 2, when=room_for_tiers)] = 0,
     cabinets: Annotated[int, Range(0, 3, when=lambda p: p.base == "panels")] = 0,
     oval: bool = False,
