@@ -129,7 +129,7 @@ def test_variants_find_a_choice_that_the_prediction_excludes_and_plain_starts_wh
         return measure_against([target])(pairs)
 
     rounds = (Round(1), Round(1), Round(1, 2))
-    further = (*rounds, Round(3, variants=True), Round(2, probe=0.01), Round(2, 2))
+    further = (*rounds, Round(3, other="choice"), Round(2, probe=0.01), Round(2, 2))
     far = inferred((0.0, 1.0, SURE, 0.0))
     with Workers(post, 1) as crew:
         (as_predicted,) = refine(post.space, start, crew, measure, Budget(rounds))

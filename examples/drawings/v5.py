@@ -44,6 +44,7 @@ def table(
     splay: Annotated[float, Range(-0.3, 0.3, LEANING, when=on_legs)] = 0.0,  # how far outwards a leg's foot is
     bow: Annotated[float, Range(-0.3, 0.3, BENT, when=lambda p: p.base == "legs")] = 0.0,  # and its middle
     spread: Annotated[float, Range(0.05, 0.4, when=lambda p: p.base == "trestles")] = 0.2,
+    apart: Annotated[float, Range(0.0, 0.1, (0.0, 0.02, 0.05), when=lambda p: p.base == "trestles")] = 0.0,
     pad: Annotated[float, Range(0.0, 0.06, (0.0, 0.002, 0.005, 0.01, 0.03), when=on_legs)] = 0.0,  # wider than a foot
     pad_height: Annotated[float, Range(0.0, 0.1, when=on_legs)] = 0.02,
     apron: Annotated[float, Range(0.0, 0.45, (0.0, 0.005, 0.02, 0.1, 0.2, 0.3), when=on_legs)] = 0.0,
@@ -100,10 +101,10 @@ def table(
         parts.append(stand)
     else:
         x = max(0.5 - inset - leg / 2, leg / 2)
-        toe = x + splay
+        toe, apart = x + splay, apart / 2 if base == "trestles" else 0.0
         toes = {"legs": [toe], "trestles": [toe - spread / 2, toe + spread / 2], "crossed": [-toe]}
-        for toe in toes[base]:
-            parts += both(leaning((x, under), (toe, 0), widths, bow if base == "legs" else 0.0))
+        for side, toe in zip((-apart, apart), toes[base], strict=False):
+            parts += both(leaning((x + side, under), (toe, 0), widths, bow if base == "legs" else 0.0))
             if pad > 0 and pad_height > 0:
                 parts += both(box((widths[2] + pad, pad_height), at=(toe, pad_height / 2)))
         if apron > 0:
@@ -115,7 +116,7 @@ def table(
             reach = x + (splay + 4 * bow * place if base == "legs" else splay) * (1 - place)
             parts.append(box((2 * max(reach + beyond, leg / 2), bar), at=(0, max(place * under, bar / 2))))
         if extra.startswith("brace"):
-            ends = (brace_level * under, under - brace) if extra == "brace up" else (under, brace_level * under)
+            ends = (brace_level * under, under - brace / 2) if extra == "brace up" else (under, brace_level * under)
             parts += both(line((x, ends[0]), (0, ends[1]), width=brace))
         if extra == "post":
             parts.append(box((post, under * (1 - post_end)), at=(0, under * (1 + post_end) / 2)))

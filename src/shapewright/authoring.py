@@ -202,6 +202,7 @@ def _replicate(
         judge.goal,
         stages.step,
         new=new,
+        parts=judge.search_parts,
     )
     vectors = found.parameters(predicted)
     for i, values in zip(rows, refined, strict=True):

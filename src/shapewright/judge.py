@@ -85,6 +85,11 @@ class Judge:
 
         return in_threads(residual, pairs, self.settings.workers)
 
+    @property
+    def search_parts(self) -> tuple[slice, ...]:
+        """What a search goes by: all of the residuals."""
+        return (slice(None),)
+
     def _targets(self, pairs: Sequence[tuple[int, Shape]]) -> dict[int, AlignedCost]:
         """By index, the references of the pairs that can be compared."""
         return {i: AlignedCost(d) for i in {i for i, _ in pairs} if (d := self.descriptors[i]) is not None}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,7 @@ from shapewright.threads import in_threads
 Floats = NDArray[np.float64]
 SMALL = 64
 """Pixels along the side of the pictures that are compared while searching."""
-SCALES = ((1.0, 2), (3.0, 4), (6.0, 8), (12.0, 16))
+SCALES = ((12.0, 16), (6.0, 8), (3.0, 4), (1.0, 2))
 """Their blurs, as standard deviations in pixels, and the pixels between the samples that are taken of each."""
 UNIT = 56.0
 """What a black pixel counts; sets what the search takes as small."""
@@ -75,6 +76,12 @@ class PictureJudge:
             return _blurred(asked[1]) - targets[asked[0]] if self._pair(*asked) else None
 
         return in_threads(residual, pairs, self.settings.workers)
+
+    @property
+    def search_parts(self) -> tuple[slice, ...]:
+        """Of the residuals, one for each of the SCALES."""
+        ends = np.cumsum([0, *((SMALL // step) ** 2 for _, step in SCALES)])
+        return tuple(slice(start, end) for start, end in pairwise(ends.tolist()))
 
     @property
     def goal(self) -> None:
