@@ -11,7 +11,8 @@ from shapewright.judge import Judge, judge_of
 from shapewright.modelling.drawing import box, circle
 from shapewright.modelling.solids import box as block
 from shapewright.picture_judge import SCALES, SMALL, UNIT, PictureJudge
-from shapewright.prediction.refinement import DRAWN, refine
+from shapewright.prediction.drawn import DRAWN
+from shapewright.prediction.refinement import refine
 from shapewright.rendering.ink import HALF
 
 

@@ -136,10 +136,10 @@ def test_variants_find_a_choice_that_the_prediction_excludes_and_plain_starts_wh
         assert len(built) == Budget(rounds).evaluations(3) == 6
         (varied,) = refine(post.space, start, crew, measure, Budget(further))
         assert Budget(further).evaluations(3) == 6 + 3 + 6 + 4
-        (plain,) = refine(post.space, far, crew, measure, Budget((Round(2),), plain=1))
+        (plain,) = refine(post.space, far, crew, measure, Budget((Round(2),), simple=1))
     assert as_predicted["form"] == "square" and varied["form"] == "round"
     assert plain == {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.5}
-    assert Budget((Round(4), Round(1)), plain=3).within(2, 3) == Budget((Round(2),))
+    assert Budget((Round(4), Round(1)), simple=3).within(2, 3) == Budget((Round(2),))
 
 
 def test_the_best_rests_while_others_are_tried_by_a_coarser_part():

@@ -202,6 +202,7 @@ def _replicate(
         judge.goal,
         stages.step,
         new=new,
+        enough=judge.search_enough,
         parts=judge.search_parts,
     )
     vectors = found.parameters(predicted)

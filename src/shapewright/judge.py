@@ -90,6 +90,11 @@ class Judge:
         """What a search goes by: all of the residuals."""
         return (slice(None),)
 
+    @property
+    def search_enough(self) -> float:
+        """A cost at which a search may end: there is none."""
+        return -np.inf
+
     def _targets(self, pairs: Sequence[tuple[int, Shape]]) -> dict[int, AlignedCost]:
         """By index, the references of the pairs that can be compared."""
         return {i: AlignedCost(d) for i in {i for i, _ in pairs} if (d := self.descriptors[i]) is not None}

@@ -30,6 +30,9 @@ SCALES = ((12.0, 16), (6.0, 8), (3.0, 4), (1.0, 2))
 UNIT = 56.0
 """What a black pixel counts; sets what the search takes as small."""
 
+ENOUGH = 0.8
+"""Black pixels that make no difference: half a percent of a table of thin lines."""
+
 
 @dataclass(frozen=True, eq=False)
 class PictureJudge:
@@ -82,6 +85,11 @@ class PictureJudge:
         """Of the residuals, one for each of the SCALES."""
         ends = np.cumsum([0, *((SMALL // step) ** 2 for _, step in SCALES)])
         return tuple(slice(start, end) for start, end in pairwise(ends.tolist()))
+
+    @property
+    def search_enough(self) -> float:
+        """The cost, at the finest of the scales, at which the overlap is all but whole even where lines are thin."""
+        return ENOUGH * UNIT
 
     @property
     def goal(self) -> None:

@@ -54,10 +54,10 @@ class Round:
 
 @dataclass(frozen=True)
 class Budget:
-    """How long to search. plain: so many starts are not predicted: the defaults, then these but for one choice."""
+    """How long to search. simple: so many starts are not predicted: the defaults, then these but for one choice."""
 
     rounds: tuple[Round, ...]
-    plain: int = 0
+    simple: int = 0
 
     def evaluations(self, scalars: int) -> int:
         """Shapes built for each reference, at most, where so many scalars are free."""
@@ -68,7 +68,7 @@ class Budget:
         fit = int((np.cumsum(self._spent(scalars)) <= evaluations).sum())
         if not fit:
             return Budget((Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
-        return Budget(self.rounds[:fit], self.plain)
+        return Budget(self.rounds[:fit], self.simple)
 
     def _spent(self, scalars: int) -> list[int]:
         spent, fresh = [], True
@@ -83,36 +83,6 @@ QUICK = Budget(
     (Round(8), Round(3), Round(2, 2, 2), *(Round(1, 2, 3),) * 2, *(Round(1, 2, 4, near=1.4),) * 12),
 )
 THOROUGH = Budget((Round(24), Round(12), *(Round(8, 2, 4),) * 3, *(Round(4, 2, 6),) * 6, *(Round(2, 2, 8),) * 20))
-
-
-def _down(part: int, combinations: int, turns: int = 1, probe: float = _PROBE) -> tuple[Round, ...]:
-    """Models made afresh and followed, so often, by one part of the residuals."""
-    return (Round(combinations, afresh=True, probe=probe, part=part), Round(combinations, 3, part=part)) * turns
-
-
-def _from(part: int, *combinations: int, turns: int) -> tuple[Round, ...]:
-    """From new starts down to the finest part, with fewer combinations at each."""
-    first = (Round(combinations[0], part=part), Round(combinations[0], 3, part=part))
-    return sum((_down(part + i, n, turns) for i, n in enumerate(combinations)), first)
-
-
-_PLAIN = (Round(1, other="plain"), *_from(0, 1, 1, 1, 2, turns=2))
-_CHOICE = Round(20, other="choice", part=1)
-DRAWN = Budget(
-    (Round(16), *_from(0, 4, 3, 2, 1, turns=1), _CHOICE, *_from(1, 4, 2, 2, turns=1), *_down(3, 1, 2, 0.01)), 6
-)
-DRAWN_THOROUGH = Budget(
-    (
-        Round(22),
-        *_from(0, 5, 3, 2, 2, turns=2),
-        *_PLAIN,
-        *(_CHOICE, *_from(1, 5, 3, 2, turns=2)),
-        *(*_down(2, 1, 2), *_down(3, 1, 4), *_down(3, 1, 4, 0.01)),
-    ),
-    10,
-)
-"""Drawings are built and measured quickly, but what pictures say changes more from place to place: parts that are thin
-overlap nothing at first, and a part too many or too few changes too little for the predicted choices to be trusted."""
 _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1
 _FLOORS = (20.0, 1000.0)
@@ -144,6 +114,7 @@ class _Search:
     best: Parameters | None = None
     cost: float = field(default=np.inf)
     kept: _Arm | None = None
+    done: bool = False
 
     def leave(self, best: _Arm, starts: Sequence[Floats]) -> None:
         """Go on from other starts, while the best arm rests."""
@@ -207,17 +178,18 @@ def refine(
     the known ones were searched for; with it, no more is spent where these turn out the best and none is new. goal: the
     cost up to which a reference counts as compatible; without it no round is spent on those that are near. within: the
     least and the greatest encoded scalars of each reference, (N, P), the whole space by default. spread: of the first
-    random points, encoded. enough: a cost at which the search for a reference ends. parts: of the residuals, coarse to
-    fine, that rounds may go by; a round that asks for a further one goes by the last. The cost never rises above that
-    of the prediction, where there is one part. A reference's result does not depend on the other references.
+    random points, encoded. parts: of the residuals, coarse to fine, that rounds may go by; a round that asks for a
+    further one goes by the last. enough: a cost, by the last part, at which the search for a reference ends. The cost
+    never rises above that of the prediction, where there is one part. A reference's result does not depend on the other
+    references.
     """
     count = len(inferred[0])
     widest = budget.rounds[0].combinations
     low, high = within or (np.zeros((count, len(space))), np.ones((count, len(space))))
     searches = []
     for i in range(count):
-        centres = likeliest(space, [column[i] for column in inferred], widest - budget.plain)
-        centres += [space.encode(space.defaults), *_others(space, space.encode(space.defaults))][: budget.plain]
+        centres = likeliest(space, [column[i] for column in inferred], widest - budget.simple)
+        centres += [space.encode(space.defaults), *_others(space, space.encode(space.defaults))][: budget.simple]
         arms = [_Arm(centre, spread=spread) for centre in centres]
         if known and (given := known[i]) is not None:
             arms = [*arms[: max(1, widest - 1)], _Arm(space.encode(given), known=True, spread=spread)]
@@ -229,7 +201,8 @@ def refine(
         before, part = part, parts[min(turn.part, len(parts) - 1)]
         for i, search in enumerate(searches):
             search.arms.sort(key=lambda arm: arm.cost)
-            if new is not None and search.settled(space, new):
+            search.done |= before == parts[-1] and search.cost <= enough
+            if search.done or (new is not None and search.settled(space, new)):
                 continue
             best = search.arms[0]
             if part != before:
@@ -238,7 +211,7 @@ def refine(
                 search.leave(
                     best, _others(space, best.centre) if turn.other == "choice" else [_plain(space, best.centre)]
                 )
-            if search.cost > enough and search.worth(turn.near, goal):
+            if search.worth(turn.near, goal):
                 for arm in search.arms[: turn.combinations]:
                     arm.slopes = None if turn.afresh else arm.slopes
                     asked += [_Trial(i, arm, point) for point in _propose(space, arm, turn, search, part)]
