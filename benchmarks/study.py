@@ -16,12 +16,13 @@ import time
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 import shapewright as sw
 from shapewright.building import Build, Workers
 from shapewright.demo import drawings
 from shapewright.judge import judge_of
-from shapewright.rendering.ink import picture
+from shapewright.rendering.ink import coverage
 from shapewright.rendering.projection import silhouette
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples" / "drawings"
@@ -35,7 +36,7 @@ def front_views(folders: list[Path], count: int) -> sw.Collection:
 
 def blind(procedure: sw.Procedure, references: sw.Collection, seconds: float, settings: sw.Settings) -> list[Build]:
     """For each reference the best of as many random shapes as can be built, drawn and compared in this time."""
-    targets = coverage([reference.shape for reference in references])
+    targets = pictures([reference.shape for reference in references])
     best: list[Build | None] = [None] * len(references)
     costs = np.full(len(references), np.inf)
     started, seed = time.perf_counter(), settings.seed
@@ -43,7 +44,7 @@ def blind(procedure: sw.Procedure, references: sw.Collection, seconds: float, se
         while time.perf_counter() - started < seconds:
             seed += 1
             builds = [build for build in crew.build(procedure.space.sample(CHUNK, seed=seed)) if build.shape]
-            found = coverage([build.shape for build in builds])
+            found = pictures([build.shape for build in builds])
             differences = np.abs(targets[:, None] - found[None]).sum(axis=2)
             for i, row in enumerate(differences):
                 if row.min() < costs[i]:
@@ -51,8 +52,21 @@ def blind(procedure: sw.Procedure, references: sw.Collection, seconds: float, se
     return [build for build in best if build]
 
 
-def coverage(shapes: list[sw.Drawing]) -> np.ndarray:
-    return np.array([picture(shape.normalised(), SIDE, 4)[0].ravel() for shape in shapes], dtype=np.float32)
+def pictures(shapes: list[sw.Drawing]) -> np.ndarray:
+    return np.array([coverage(shape, SIDE).ravel() for shape in shapes], dtype=np.float32)
+
+
+def sheet(results: list[sw.Result], columns: int = 10, side: int = 120) -> Image.Image:
+    """Each drawing and its replica over each other, worst first: grey is in both, red is missed, blue is too much."""
+    rows = -(-len(results) // columns)
+    picture = Image.new("RGB", (columns * side, rows * side), "white")
+    for i, result in enumerate(sorted(results, key=lambda result: result.iou)):
+        ours, theirs = (coverage(shape, side)[..., None] for shape in (result.replica, result.reference))
+        both = np.minimum(ours, theirs)
+        ink = both * (0.4, 0.4, 0.4) + (theirs - both) * (0.1, 0.9, 0.9) + (ours - both) * (0.9, 0.5, 0.1)
+        tile = Image.fromarray((255 * np.clip(1.0 - ink, 0, 1)).astype(np.uint8))
+        picture.paste(tile, (i % columns * side, i // columns * side))
+    return picture
 
 
 def main() -> None:
@@ -97,6 +111,9 @@ def main() -> None:
         seconds = time.perf_counter() - started
         if arguments.out:
             iteration.save(arguments.out / version)
+            for kind in sets:
+                found = [result for result in iteration if result.name.startswith(kind) and result.replica]
+                sheet(found).save(arguments.out / f"{version}-{kind}.png", optimize=True)
         ways = [
             [Build(result.parameters or {}, result.replica) for result in iteration],
             [Build(procedure.space.defaults, procedure(**procedure.space.defaults))] * len(references),
