@@ -84,7 +84,7 @@ def bedding(box, board, blanket, rails):
     yield frame.tag("frame")
     yield mattress.inset(x=board).tag("mattress")
     top = box.face("top")
-    yield top.inset(x=board, z=(0.02, 0)).split("z", 0.2, ...)[0].extrude(0.06).tag("pillows")
+    yield top.inset(x=board, z=(0.02, 0)).split("z", 0.24, ...)[0].extrude(0.08).tag("pillows")
     if blanket:
         yield box.split("z", 0.3, ...)[1].inset(x=-BLANKET, y=(0.3 * box.height, -0.012)).tag("blanket")
     if rails:
@@ -94,7 +94,7 @@ def bedding(box, board, blanket, rails):
 @bed.rule("pillows", when=lambda p: p.pillows > 0)
 def pillow_row(box, pillows):
     for place in box.repeat("x", count=pillows):
-        yield place.inset(x=0.08 * place.width, y=(-0.01, 0)).fill(PILLOW.scale).tag("pillow")
+        yield place.inset(y=(-0.01, 0)).sub((0.4 * box.width, None, None)).fill(PILLOW.scale).tag("pillow")
 
 
 @bed.rule("pillows")
@@ -113,10 +113,10 @@ def beds(
     width: Annotated[float, Range(0.4, 1.0)] = 0.7,
     height: Annotated[float, Range(0.15, 0.4)] = 0.25,
     clearance: Annotated[float, Range(0.05, 0.6)] = 0.3,
-    head: Annotated[float, Range(0.06, 0.45)] = 0.2,
-    foot: Annotated[float, Range(0.02, 0.35)] = 0.06,
+    head: Annotated[float, Range(0.1, 0.45)] = 0.2,
+    foot: Annotated[float, Range(0.04, 0.35)] = 0.06,
     board: Annotated[float, Range(0.025, 0.06)] = 0.035,
-    arch: Annotated[float, Range(0.01, 0.2)] = 0.06,
+    arch: Annotated[float, Range(0.02, 0.2)] = 0.06,
     ends: Literal["panels", "spindles"] = "panels",
     pillows: Annotated[int, Range(0, 2)] = 2,
     blanket: bool = False,

@@ -2,11 +2,10 @@
 
 from typing import Annotated, Literal
 
-from shapewright import Infeasible, Range, When, procedure
+from shapewright import Range, When, procedure
 from shapewright.modelling.grammar import Grammar
 
 BACK = 0.01
-NARROW = 0.02  # no compartment is less high or wide
 DOOR, DRAWER = 0.2, 0.12  # doors are about so wide, drawers so high
 FRONT, GAP, GRIP = 0.02, 0.008, 0.015  # how thick they are, the gaps between them, and their handles
 
@@ -30,7 +29,7 @@ def raised(box, stand, clearance):
 
 @shelf.rule("plinth")
 def plinth(box):
-    yield box.inset(z=(0, 0.05)).label("plinth")
+    yield box.inset(x=0.02, z=(0, 0.05)).label("plinth")
 
 
 @shelf.rule("legs")
@@ -52,10 +51,14 @@ def closed_case(box):
 # Shelves
 
 
+def counts(box, along, across):
+    """Columns and rows of compartments."""
+    return (across, along) if box.height > box.width else (along, across)
+
+
 @shelf.rule("shelves")
-def compartments(box, board, rows, columns, back):
-    if min((box.height - board) / rows, (box.width - board) / columns) < board + NARROW:
-        raise Infeasible("the compartments are too narrow for anything to be kept in them")
+def compartments(box, board, along, across, back):
+    columns, rows = counts(box, along, across)
     yield from (plank.tag("board") for plank in box.repeat("y", count=rows + 1, size=board))
     yield from (panel.tag("panel") for panel in box.repeat("x", count=columns + 1, size=board))
     if back:
@@ -87,23 +90,24 @@ def drawers(box):
 
 @procedure
 def shelves(
-    upright: Annotated[float, Range(0.22, 0.82)] = 0.65,
+    upright: Annotated[float, Range(0.25, 0.8)] = 0.65,
     depth: Annotated[float, Range(0.1, 0.6)] = 0.16,
-    board: Annotated[float, Range(0.01, 0.04, when=lambda p: not p.closed or p.stand == "legs")] = 0.02,
-    columns: Annotated[int, Range(1, 3, when=lambda p: not p.closed)] = 1,
-    rows: Annotated[int, Range(1, 5, when=lambda p: not p.closed)] = 4,
+    board: Annotated[float, Range(0.015, 0.035, when=lambda p: not p.closed or p.stand == "legs")] = 0.02,
+    along: Annotated[int, Range(1, 5, when=lambda p: not p.closed)] = 4,
+    across: Annotated[int, Range(1, 3, when=lambda p: not p.closed)] = 1,
     closed: bool = False,
     back: Annotated[bool, When(lambda p: not p.closed)] = True,
     stand: Literal["floor", "plinth", "legs"] = "plinth",
-    clearance: Annotated[float, Range(0.05, 0.4, when=lambda p: p.stand != "floor")] = 0.06,
+    clearance: Annotated[float, Range(0.07, 0.35, when=lambda p: p.stand != "floor")] = 0.08,
 ):
     """Shelves, cupboards and chests of drawers.
 
     Width and height together are 1; upright: the height. depth: of all. board: the thickness of boards, panels and
-    legs. columns, rows: of open compartments. closed: by doors or, where the case is wider than high, by drawers.
-    back: whether open compartments have one. clearance: the part of the height below the case.
+    legs. along, across: open compartments along the longer side, and the shorter. closed: by doors or, where the case
+    is wider than high, by drawers. back: whether open compartments have one. clearance: the part of the height below
+    the case.
     """
     return shelf.derive(
         (1 - upright, upright, depth),
-        board=board, columns=columns, rows=rows, closed=closed, back=back, stand=stand, clearance=clearance,
+        board=board, along=along, across=across, closed=closed, back=back, stand=stand, clearance=clearance,
     )  # fmt: skip

@@ -2,12 +2,12 @@
 
 from typing import Annotated, Literal
 
-from shapewright import Infeasible, Range, When, procedure
+from shapewright import Range, When, procedure
 from shapewright.modelling.grammar import Grammar, share
 
 BACK = 0.01
-NARROW = 0.02  # no compartment is less high or wide
 DOOR, DRAWER = 0.2, 0.12  # doors are about so wide, drawers so high
+CROWN = 0.025  # how thick a top is that stands out, and how far it does
 FRONT, GAP, GRIP = 0.02, 0.008, 0.015  # how thick they are, the gaps between them, and their handles
 
 shelf = Grammar()
@@ -17,10 +17,10 @@ shelf = Grammar()
 
 
 @shelf.rule("shelf", when=lambda p: p.crown)
-def crowned(box, board):
-    body, top = box.split("y", ..., board)
+def crowned(box):
+    body, top = box.split("y", ..., CROWN)
     yield top.tag("top")
-    yield body.inset(x=board, z=(0, board)).tag("body")
+    yield body.inset(x=CROWN, z=(0, CROWN)).tag("body")
 
 
 @shelf.rule("shelf")
@@ -42,16 +42,16 @@ def raised(box, stand, clearance):
 
 @shelf.rule("plinth")
 def plinth(box):
-    yield box.inset(z=(0, 0.05)).label("plinth")
+    yield box.inset(x=0.02, z=(0, 0.05)).label("plinth")
 
 
 @shelf.rule("legs")
 def legs(box, board, front):
     box = box.inset(z=(0, 0 if front == "open" else FRONT + GRIP))
-    yield from (corner.tag("leg") for corner in box.corners((board, min(board, box.depth / 3))))
+    yield from (corner.tag("leg") for corner in box.corners((2 * board, min(2 * board, box.depth / 3))))
 
 
-# Open, closed, or closed below and open above
+# Open, closed, or in part
 
 
 @shelf.rule("case", when=lambda p: p.front == "open")
@@ -61,13 +61,18 @@ def open_case(box):
 
 @shelf.rule("case", when=lambda p: p.front == "half")
 def half_open_case(box):
-    below, above = box.split("y", share(2), share(3))
-    yield below.tag("cupboard")
-    yield above.inset(z=(0, FRONT + GRIP)).tag("shelves")
+    closed, opened = box.split("y" if box.height > box.width else "x", share(2), share(3))
+    yield closed.tag("closed")
+    yield opened.inset(z=(0, FRONT + GRIP)).tag("shelves")
 
 
 @shelf.rule("case")
 def closed_case(box):
+    yield box.tag("closed")
+
+
+@shelf.rule("closed")
+def doors_or_drawers(box):
     yield box.tag("chest" if box.width > box.height else "cupboard")
 
 
@@ -75,9 +80,8 @@ def closed_case(box):
 
 
 @shelf.rule("shelves")
-def compartments(box, board, rows, columns, back):
-    if min((box.height - board) / rows, (box.width - board) / columns) < board + NARROW:
-        raise Infeasible("the compartments are too narrow for anything to be kept in them")
+def compartments(box, board, along, across, back):
+    _, rows = counts(box, along, across)
     yield from (plank.tag("board") for plank in box.repeat("y", count=rows + 1, size=board))
     yield box.tag("uprights")
     if back:
@@ -85,14 +89,21 @@ def compartments(box, board, rows, columns, back):
 
 
 @shelf.rule("uprights", when=lambda p: p.sides)
-def panels(box, board, columns):
+def panels(box, board, along, across):
+    columns, _ = counts(box, along, across)
     yield from (panel.tag("panel") for panel in box.repeat("x", count=columns + 1, size=board))
 
 
 @shelf.rule("uprights")
-def posts(box, board, columns):
+def posts(box, board, along, across):
+    columns, _ = counts(box, along, across)
     for pair in box.repeat("x", count=columns + 1, size=board):
         yield from (post.tag("post") for post in pair.ends("z", min(board, box.depth / 3)))
+
+
+def counts(box, along, across):
+    """Columns and rows of compartments."""
+    return (across, along) if box.height > box.width else (along, across)
 
 
 # Doors and drawers, as many as fit
@@ -124,28 +135,28 @@ def is_open(p):
 
 @procedure
 def shelves(
-    upright: Annotated[float, Range(0.22, 0.82)] = 0.65,
+    upright: Annotated[float, Range(0.25, 0.8)] = 0.65,
     depth: Annotated[float, Range(0.1, 0.6)] = 0.16,
-    board: Annotated[float, Range(0.01, 0.04, when=lambda p: is_open(p) or p.crown or p.stand == "legs")] = 0.02,
-    columns: Annotated[int, Range(1, 3, when=is_open)] = 1,
-    rows: Annotated[int, Range(1, 5, when=is_open)] = 4,
+    board: Annotated[float, Range(0.015, 0.035, when=lambda p: is_open(p) or p.stand == "legs")] = 0.02,
+    along: Annotated[int, Range(1, 5, when=is_open)] = 4,
+    across: Annotated[int, Range(1, 3, when=is_open)] = 1,
     front: Literal["open", "half", "closed"] = "open",
     back: Annotated[bool, When(is_open)] = True,
     sides: Annotated[bool, When(is_open)] = True,
     stand: Literal["floor", "plinth", "legs"] = "plinth",
-    clearance: Annotated[float, Range(0.05, 0.4, when=lambda p: p.stand != "floor")] = 0.06,
+    clearance: Annotated[float, Range(0.07, 0.35, when=lambda p: p.stand != "floor")] = 0.08,
     crown: bool = False,
 ):
     """Shelves, cupboards and chests of drawers.
 
-    Width and height together are 1; upright: the height. depth: of all. board: the thickness of boards, posts, legs
-    and the top. columns, rows: of open compartments. front: open, closed by doors or, where it
-    is wider than high, by drawers, or closed below and open above. back, sides: whether open compartments have them;
-    without sides boards rest on posts. clearance: the part of the height below the case. crown: whether the top stands
-    out at the sides and in front, as far as it is thick.
+    Width and height together are 1; upright: the height. depth: of all. board: the thickness of boards and posts; legs
+    are twice as thick. along, across: compartments along the longer side of what is open, and the shorter. front: open,
+    closed by doors or, where it is wider than high, by drawers, or two fifths of it closed, below or at the left. back,
+    sides: whether open compartments have them; without sides boards rest on posts. clearance: the part of the height
+    below the case. crown: whether the top stands out at the sides and in front.
     """
     return shelf.derive(
         (1 - upright, upright, depth),
-        board=board, columns=columns, rows=rows, front=front, back=back, sides=sides,
+        board=board, along=along, across=across, front=front, back=back, sides=sides,
         stand=stand, clearance=clearance, crown=crown,
     )  # fmt: skip

@@ -14,6 +14,7 @@ from rich.markup import escape
 
 from shapewright import commands, files
 from shapewright.options import (
+    Augment,
     Cameras,
     Device,
     Epochs,
@@ -85,6 +86,7 @@ def fit(
     epochs: Epochs = None,
     cameras: Cameras = None,
     views: Views = None,
+    augment: Augment = False,
     refine: Refine = None,
     rounds: Annotated[int, typer.Option(min=0, help="Rounds of adaptive sampling around what was found.")] = 0,
     previous: Annotated[
@@ -126,6 +128,7 @@ def fit(
         preset,
         **{**(commands.judged_by_marks(folder) if marks else {}), **given},
         seed=seed,
+        augment=augment,
         rounds=rounds,
         device=device,
         fidelity=fidelity,
@@ -158,6 +161,7 @@ def evaluate(
     epochs: Epochs = None,
     cameras: Cameras = None,
     views: Views = None,
+    augment: Augment = False,
     refine: Refine = None,
     compare: Annotated[
         Literal["cameras", "views", "both"] | None,
@@ -173,7 +177,7 @@ def evaluate(
     from shapewright.evaluation import summary, variants
 
     given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
-    settings = Settings.preset(preset, **given, device=device, workers=workers)
+    settings = Settings.preset(preset, **given, augment=augment, device=device, workers=workers)
     author = load_procedure(procedure)
     found = []
     for variant in variants(settings, compare):

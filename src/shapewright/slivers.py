@@ -24,11 +24,10 @@ def heights(triangles: Floats) -> Floats:
 
 def has_slivers(triangles: Floats, least: float) -> bool:
     """Whether any of (F, 3, 3) is less high than ``least``, or by rounding nearly so: in a third of the time."""
-    edges = triangles[:, (1, 2, 0)] - triangles
-    squares = (edges * edges).sum(axis=2)
-    dots = (edges[:, 0] * edges[:, 1]).sum(axis=1)
-    doubled = squares[:, 0] * squares[:, 1] - dots * dots
-    return bool((doubled < (1.1 * least) ** 2 * squares.max(axis=1)).any())
+    a, b, c = np.ascontiguousarray(triangles.transpose(1, 2, 0))
+    u, v, w = b - a, c - a, c - b
+    uu, vv, ww, uv = (u * u).sum(axis=0), (v * v).sum(axis=0), (w * w).sum(axis=0), (u * v).sum(axis=0)
+    return bool((uu * vv - uv * uv < (1.1 * least) ** 2 * np.maximum(np.maximum(uu, vv), ww)).any())
 
 
 def without_slivers(vertices: Floats, faces: Ints, owners: Ints, least: float) -> tuple[Floats, Ints, Ints]:

@@ -59,34 +59,36 @@ def _touching(boxes: Sequence[Sequence[float]], least: float) -> list[int]:
 
 
 def _merged(points: Floats, least: float) -> Floats:
-    """The points, each coordinate that is less than ``least`` above another replaced by that one."""
+    """The points, of coordinates with gaps less than ``least`` between them all replaced by that of the first point."""
     gaps = np.diff(np.sort(points, axis=0), axis=0)
     if not ((gaps > 0.0) & (gaps <= least)).any():
         return points
     merged = np.empty_like(points)
     for d in range(3):
         order = np.argsort(points[:, d], kind="stable")
-        ordered = points[order, d]
-        first = np.concatenate([[True], gaps[:, d] > least])
-        merged[order, d] = ordered[first][np.cumsum(first) - 1]
+        starts = np.concatenate([[0], np.nonzero(gaps[:, d] > least)[0] + 1])
+        first = np.minimum.reduceat(order, starts)
+        merged[order, d] = np.repeat(points[first, d], np.diff([*starts, len(order)]))
     return merged
 
 
 def _overlapping(points: Floats, meshes: Sequence[Mesh64], ends: Sequence[int], facing: int, extent: float) -> Floats:
     """The points, with slanted planes of later meshes that meet a plane of an earlier one pushed out a little."""
     faces = np.concatenate([mesh.tri_verts.astype(np.int64) + start for mesh, start in zip(meshes, ends, strict=False)])
-    corners = points[faces]
-    slanted = np.nonzero(~(corners == corners[:, :1]).all(axis=1).any(axis=1))[0]
+    a, b, c = np.ascontiguousarray(points.T)[:, faces.T].transpose(1, 0, 2)
+    slanted = np.nonzero(~((a == b) & (a == c)).any(axis=0))[0]
     owners = np.searchsorted(ends, faces[slanted, 0], side="right")
     if not len(slanted) or owners[0] == owners[-1]:
         return points
-    a, b, c = corners[slanted].transpose(1, 2, 0)
-    u, v = b - a, c - a
+    a = a[:, slanted]
+    u, v = b[:, slanted] - a, c[:, slanted] - a
     normals = np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
     normals /= np.maximum(np.sqrt((normals * normals).sum(axis=0)), np.finfo(np.float64).tiny)
     planes = np.concatenate([normals, (normals * a).sum(axis=0)[None] / extent])
     keys = _KEYS @ np.round(planes * _GRID).astype(np.int64)  # linear: the key of the other side is the negative
     moved = points
+    if not np.isin(keys, facing * keys).any():
+        return points
     for owner in np.unique(owners)[1:]:
         mine = owners == owner
         for key in np.unique(keys[mine & np.isin(facing * keys, keys[owners < owner])]):

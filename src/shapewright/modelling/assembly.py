@@ -11,6 +11,7 @@ from manifold3d import Manifold
 
 from shapewright.modelling.boxes import SIDES, Box
 from shapewright.modelling.cells import unite
+from shapewright.modelling.deformation import Deformation
 from shapewright.modelling.facets import Surface, deformed
 from shapewright.modelling.forms import Fill, Round
 from shapewright.modelling.sections import without_repeats
@@ -59,8 +60,8 @@ def apart(leaves: Sequence[Leaf], tolerance: float, by_rule: bool = False) -> Me
     for leaf in leaves:
         if leaf.box.groups or not _is_plain(leaf.box):
             surface, names = _surface(leaf, tolerance, by_rule)
-            for group in reversed(leaf.box.groups):
-                surface = deformed(surface, group.deformations, tolerance) if group.deformations else surface
+            for deformations in (leaf.box.deformations, *(group.deformations for group in reversed(leaf.box.groups))):
+                surface = deformed(surface, deformations, tolerance) if deformations else surface
             faces, owners = surface.triangles()
             meshes.append(Mesh(surface.points, faces, owners, names))
     return concatenate(meshes)
@@ -77,6 +78,10 @@ def _join(leaves: Sequence[Leaf], depth: int, tolerance: float, by_rule: bool) -
     voids = _solids([leaf for leaf in here if leaf.box.is_void], tolerance, by_rule)
     for members in inner.values():
         group = members[0].box.groups[depth]
+        bent = _bent(members, depth, tolerance, by_rule)
+        if bent:
+            solids.append(bent)
+            continue
         solid, void = _join(members, depth + 1, tolerance, by_rule)
         if group.deformations:
             solid = solid.deformed(group.deformations, tolerance) if solid else None
@@ -86,6 +91,26 @@ def _join(leaves: Sequence[Leaf], depth: int, tolerance: float, by_rule: bool) -
         solids += [solid] if solid else []
         voids += [void] if void else []
     return union(*solids) if solids else None, union(*voids) if voids else None
+
+
+def _bent(leaves: Sequence[Leaf], depth: int, tolerance: float, by_rule: bool) -> Solid | None:
+    """A group of plain boxes united and deformed without booleans, if it is one."""
+    if not all(len(leaf.box.groups) == depth + 1 and _is_plain(leaf.box) and not leaf.box.is_void for leaf in leaves):
+        return None
+    united = _united(leaves, by_rule)
+    if not united:
+        return None
+    points, faces, owners, names = united
+    return _solid(
+        Surface.of_triangles(points, faces, owners), leaves[0].box.groups[depth].deformations, tolerance, names
+    )
+
+
+def _solid(surface: Surface, deformations: Sequence[Deformation], tolerance: float, names: Sequence[str]) -> Solid:
+    """The solid in a surface after deformations, without the cuts that these turn out not to need."""
+    bent = deformed(surface, deformations, tolerance) if deformations else surface
+    solid = labelled(bent.points, *bent.triangles(), names)
+    return solid.simplified() if len(bent.points) > len(surface.points) else solid
 
 
 def _solids(leaves: Sequence[Leaf], tolerance: float, by_rule: bool) -> list[Solid]:
@@ -115,11 +140,11 @@ def _leaf_solid(leaf: Leaf, tolerance: float, by_rule: bool) -> Solid:
     if _is_plain(box):
         return labelled(_corner_points([box])[0], _TRIANGLES, np.zeros(12, dtype=np.int64), [_name(leaf, by_rule)])
     surface, names = _surface(leaf, tolerance, by_rule)
-    return labelled(surface.points, *surface.triangles(), names).simplified()
+    return _solid(surface, box.deformations, tolerance, names)
 
 
 def _surface(leaf: Leaf, tolerance: float, by_rule: bool) -> tuple[Surface, tuple[str, ...]]:
-    """The surface of a leaf after its own deformations, and the labels that its owners stand for."""
+    """The surface of a leaf before its own deformations, and the labels that its owners stand for."""
     box, name = leaf.box, _name(leaf, by_rule)
     if isinstance(box.form, Fill):
         mesh = _filled(leaf, box.form, by_rule).mesh()
@@ -131,7 +156,7 @@ def _surface(leaf: Leaf, tolerance: float, by_rule: bool) -> tuple[Surface, tupl
         names = tuple(dict.fromkeys([name, *(label for side, label in sides.items() if side)]))
         owners = np.array([names.index(sides.get(side, name)) for side in SIDES])
         surface = replace(surface, owners=owners[surface.owners])
-    return (deformed(surface, box.deformations, tolerance) if box.deformations else surface), names
+    return surface, names
 
 
 def _plain(box: Box) -> Surface:

@@ -30,14 +30,10 @@ def unite(low: Floats, high: Floats, owners: Ints) -> tuple[Floats, Ints, Ints] 
         np.stack([np.searchsorted(lines[d], ends[:, d], side="right") - 1 for d in range(3)], axis=1)
         for ends in (low, high)
     )
-    corners, face_owners = _stitched(first, last, owners, shape)
-    used, faces = np.unique(corners, return_inverse=True)
-    faces = faces.reshape(-1, 3)
-    closed, manifold, _, _ = topology(faces, len(used))
+    points, faces, face_owners = _stitched(first, last, owners, *lines)
+    closed, manifold, _, _ = topology(faces, len(points))
     if not (closed and manifold):
         return None
-    places = np.unravel_index(used, tuple(shape))
-    points = np.stack([line[place] for line, place in zip(lines, places, strict=True)], axis=1)
     if has_slivers(points[faces], least):  # on a ledge as narrow as a thousandth of its length
         return without_slivers(points, faces, face_owners, least)
     return points, faces, face_owners
@@ -53,8 +49,9 @@ def _distinct(values: Floats, least: float) -> Floats:
 
 
 @njit(nogil=True, cache=True)
-def _stitched(first: Any, last: Any, owners: Any, shape: Any) -> Any:
-    """Triangles (F, 3) of grid points, numbered in the order of the grid, and their owners."""
+def _stitched(first: Any, last: Any, owners: Any, xs: Any, ys: Any, zs: Any) -> Any:
+    """Points (V, 3), in the order of the grid of these coordinates, triangles (F, 3) and their owners."""
+    shape = np.array([len(xs), len(ys), len(zs)])
     stride = np.array([shape[1] * shape[2], shape[2], 1])
     cells = np.full(shape[0] * shape[1] * shape[2], -1, dtype=np.int64)
     for b in range(len(owners) - 1, -1, -1):
@@ -78,7 +75,30 @@ def _stitched(first: Any, last: Any, owners: Any, shape: Any) -> Any:
         before = total
         total = _fill(rectangles[r], corner, stride, faces, total)
         face_owners[before:total] = rectangles[r, 3]
-    return faces[:total], face_owners[:total]
+    points = _numbered(faces[:total], stride, xs, ys, zs)
+    return points, faces[:total], face_owners[:total]
+
+
+@njit(nogil=True, cache=True)
+def _numbered(faces: Any, stride: Any, xs: Any, ys: Any, zs: Any) -> Any:
+    """Points (V, 3) of the grid that faces use; the faces are changed to point at these."""
+    numbers = np.full(len(xs) * stride[0], -1, dtype=np.int64)
+    for f in range(len(faces)):
+        for k in range(3):
+            numbers[faces[f, k]] = 0
+    points = np.empty((int((numbers == 0).sum()), 3))
+    count = 0
+    for place in range(len(numbers)):
+        if numbers[place] == 0:
+            numbers[place] = count
+            points[count, 0] = xs[place // stride[0]]
+            points[count, 1] = ys[place % stride[0] // stride[1]]
+            points[count, 2] = zs[place % stride[1]]
+            count += 1
+    for f in range(len(faces)):
+        for k in range(3):
+            faces[f, k] = numbers[faces[f, k]]
+    return points
 
 
 @njit(nogil=True, cache=True)
