@@ -128,14 +128,15 @@ def fit(
 
 @dataclass(frozen=True, eq=False)
 class _Found:
-    """The nearest build so far for each reference, and its distance; NaN where there is none to measure."""
+    """The nearest build so far for each reference, its distance, NaN where there is none to measure, and its field."""
 
     builds: list[Build | None]
     distances: NDArray[np.float64]
+    fields: NDArray[np.int64]
 
     @classmethod
     def none(cls, count: int) -> _Found:
-        return cls([None] * count, np.full(count, np.nan))
+        return cls([None] * count, np.full(count, np.nan), np.zeros(count, dtype=np.int64))
 
     def parameters(self, otherwise: Sequence[Parameters]) -> list[Parameters]:
         """Of each build; of ``otherwise`` where there is none."""
@@ -195,7 +196,7 @@ def _replicate(
         procedure.space,
         [column[rows] for column in inferred],
         crew,
-        lambda pairs: judge.search_residuals([(int(rows[i]), shape) for i, shape in pairs]),
+        lambda pairs: judge.search_residuals([(int(rows[i]), shape) for i, shape in pairs], found.fields),
         lesson.budget(settings),
         settings.seed,
         [known[i] for i in rows],
@@ -214,11 +215,11 @@ def _replicate(
 def _try(crew: Workers, judge: Judge | PictureJudge, vectors: Sequence[Parameters], found: _Found) -> _Found:
     """Build one vector for each reference, and keep it where it is nearer than what was found before."""
     builds = crew.build(vectors)
-    distances = judge.distances(builds)
+    distances, fields = judge.nearest(builds)
     closer = (distances < found.distances) | (np.isnan(found.distances) & ~np.isnan(distances))
     better = [old is None or bool(mine) for old, mine in zip(found.builds, closer, strict=True)]
     chosen = [new if mine else old for mine, new, old in zip(better, builds, found.builds, strict=True)]
-    return _Found(chosen, np.where(better, distances, found.distances))
+    return _Found(chosen, np.where(better, distances, found.distances), np.where(better, fields, found.fields))
 
 
 def _results(

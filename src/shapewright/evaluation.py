@@ -86,12 +86,13 @@ def _refined(procedure: Procedure, crew: Workers, lesson: Lesson, settings: Sett
     shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
     judge = judge_of(shapes, settings)
     inferred = lesson.predictor.infer(held_out.shapes)
+    _, fields = judge.nearest(crew.build(lesson.predictor.decode(inferred)))
     stages.begin("refine", 1)
     found = refine(
         procedure.space,
         inferred,
         crew,
-        judge.search_residuals,
+        lambda pairs: judge.search_residuals(pairs, fields),
         lesson.budget(settings),
         settings.seed,
         goal=judge.goal,

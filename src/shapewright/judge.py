@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from shapewright import metric
 from shapewright.building import Build
 from shapewright.comparison import light_field
-from shapewright.comparison.aligned import AlignedCost
+from shapewright.comparison.aligned import AlignedCost, nearest_field
 from shapewright.comparison.depths import depth_difference
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.leaders import LARGE, group_by_leaders
@@ -26,6 +26,7 @@ from shapewright.shapes import Mesh, Shape
 from shapewright.threads import in_threads
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 
 def judge_of(references: Collection, settings: Settings, cache: Path | None = None) -> Judge | PictureJudge:
@@ -43,6 +44,7 @@ class Judge:
     references: Collection
     descriptors: tuple[light_field.Descriptor | None, ...]
     settings: Settings
+    _targets: dict[tuple[int, int], AlignedCost] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, references: Collection, settings: Settings, cache: Path | None = None) -> Judge:
@@ -59,29 +61,37 @@ class Judge:
 
         rows: indices of the references that the builds are for, all of them by default.
         """
+        return self.nearest(builds, rows)[0]
+
+    def nearest(self, builds: Sequence[Build], rows: Sequence[int] | None = None) -> tuple[Floats, Ints]:
+        """Distances as above, and of each pair the light field in which it differs least: by that it is searched on."""
         described = _describe([_mesh(build.shape) for build in builds], self.settings.workers)
         theirs = self.descriptors if rows is None else [self.descriptors[i] for i in rows]
-        pairs = zip(theirs, described, strict=True)
-        align = self.settings.align
-        return np.array([light_field.distance(a, b, align) if a and b else np.nan for a, b in pairs])
+        pairs, align = list(zip(theirs, described, strict=True)), self.settings.align
+        distances = [light_field.distance(a, b, align) if a and b else np.nan for a, b in pairs]
+        return np.array(distances), np.array([nearest_field(a, b) if a and b else 0 for a, b in pairs], dtype=np.int64)
 
     def search_costs(self, pairs: Sequence[tuple[int, Shape]]) -> list[float]:
         """Costs to search by: of a replica against the reference with that index, in the pose that it has."""
-        targets = self._targets(pairs)
 
         def cost(pair: tuple[int, Shape]) -> float:
-            i, shape = pair
-            return targets[i](shape) if i in targets and isinstance(shape, Mesh) else np.inf
+            target, shape = self._target(pair[0], 0), pair[1]
+            return target(shape) if target and isinstance(shape, Mesh) else np.inf
 
         return in_threads(cost, pairs, self.settings.workers)
 
-    def search_residuals(self, pairs: Sequence[tuple[int, Shape]]) -> list[Floats | None]:
-        """What the cost of each replica is made of: vectors whose sums of absolute values are the costs, smoothed."""
-        targets = self._targets(pairs)
+    def search_residuals(
+        self, pairs: Sequence[tuple[int, Shape]], fields: Sequence[int] | Ints | None = None
+    ) -> list[Floats | None]:
+        """What the cost of each replica is made of: vectors whose sums of absolute values are the costs, smoothed.
+
+        fields: the light field to go by for each of the references, the first by default.
+        """
 
         def residual(pair: tuple[int, Shape]) -> Floats | None:
-            i, shape = pair
-            return targets[i].residual(shape) if i in targets and isinstance(shape, Mesh) else None
+            row, shape = pair
+            target = self._target(row, 0 if fields is None else int(fields[row]))
+            return target.residual(shape) if target and isinstance(shape, Mesh) else None
 
         return in_threads(residual, pairs, self.settings.workers)
 
@@ -95,9 +105,14 @@ class Judge:
         """A cost at which a search may end: there is none."""
         return -np.inf
 
-    def _targets(self, pairs: Sequence[tuple[int, Shape]]) -> dict[int, AlignedCost]:
-        """By index, the references of the pairs that can be compared."""
-        return {i: AlignedCost(d) for i in {i for i, _ in pairs} if (d := self.descriptors[i]) is not None}
+    def _target(self, row: int, field: int) -> AlignedCost | None:
+        """The cost against one reference in one light field, made once; None where it cannot be compared."""
+        reference = _mesh(self.references.references[row].shape)
+        if reference is None or self.descriptors[row] is None:
+            return None
+        if (row, field) not in self._targets:
+            self._targets[row, field] = AlignedCost(reference, field)
+        return self._targets[row, field]
 
     @property
     def goal(self) -> float:

@@ -67,7 +67,13 @@ class PictureJudge:
         asked = zip(range(len(builds)) if rows is None else rows, builds, strict=True)
         return np.array(in_threads(distance, asked, self.settings.workers))
 
-    def search_residuals(self, pairs: Sequence[tuple[int, Shape]]) -> list[Floats | None]:
+    def nearest(self, builds: Sequence[Build], rows: Sequence[int] | None = None) -> tuple[Floats, NDArray[np.int64]]:
+        """Distances as above; drawings have one view only, 0."""
+        return self.distances(builds, rows), np.zeros(len(builds), dtype=np.int64)
+
+    def search_residuals(
+        self, pairs: Sequence[tuple[int, Shape]], fields: Sequence[int] | NDArray[np.int64] | None = None
+    ) -> list[Floats | None]:
         """How a replica and the reference with that index differ as pictures, blurred at several scales.
 
         Blurred pictures change evenly while an edge moves by as much as the blur is wide, sharp ones within a pixel.
