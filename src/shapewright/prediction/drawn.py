@@ -35,7 +35,7 @@ DRAWN_THOROUGH = Budget(
         Round(22),
         *_from(0, 5, 3, 2, 2, turns=2),
         *_PLAIN,
-        *(_CHOICE, *_from(1, 5, 3, 2, turns=2)),
+        *(_CHOICE, *_from(1, 5, 3, 2, turns=2)) * 2,
         *(*_down(2, 1, 2), *_down(3, 1, 4), *_down(3, 1, 4, _FINE)),
     ),
     simple=10,
