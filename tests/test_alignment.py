@@ -62,5 +62,6 @@ def test_coordinates_move_by_rounding_only():
     moved = aligned([a.manifold, b.manifold])
     assert moved[0] is a.manifold and moved[1] is not b.manifold
     assert (moved[1].to_mesh64().vert_properties[:, 0] == 0.5).sum() == 4
+    assert aligned([b.manifold, a.manifold])[0] is b.manifold
     gap = aligned([a.manifold, box(1, at=(1 + 1e-6, 0, 0)).manifold])
     assert gap[0] is a.manifold

@@ -168,6 +168,20 @@ def test_what_is_made_in_a_deformed_box_is_one_piece_and_deformed_with_it():
     np.testing.assert_allclose(apart.bounds, mesh.bounds, atol=2 * derivation.tolerance)
 
 
+def test_boxes_in_a_leaning_box_are_united_and_stay_as_plain_as_they_were():
+    def leaning(box):
+        return [piece.label(name) for piece, name in zip(box.split("x", 0.3, ...), ("left", "right"), strict=True)]
+
+    grammar = Grammar()
+    grammar.rule("box")(lambda box: box.path((0, 0, 0), (0.2, 0, 0.1)).tag("inner"))
+    grammar.rule("inner")(leaning)
+    mesh = grammar.derive((1, 1, 1)).mesh()
+    assert mesh.soundness().sound and set(mesh.labels) == {"left", "right"}
+    assert len(mesh.faces) == len(shape_of(leaning).mesh().faces)
+    np.testing.assert_allclose(mesh.bounds, [[-0.5, 0, -0.5], [0.7, 1, 0.6]])
+    assert len(shape_of(lambda box: box.path((0, 0, 0), (0.2, 0, 0.1))).mesh().faces) == 12
+
+
 def test_deformations_of_mirror_images_are_mirror_images():
     def legs(box):
         for corner in box.corners(0.1):

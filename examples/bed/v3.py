@@ -9,7 +9,7 @@ from shapewright.modelling.solids import chamfered_box, extrude
 MATTRESS = 0.45  # its part of the height from below the frame to its own top
 BLANKET = 0.03  # how far a blanket hangs out at the sides
 RAIL = 0.14  # how far side rails rise above the mattress
-SPINDLE, SPACE = 0.02, 0.08  # the thickness of spindles, and the room between them
+SPINDLE, SPACE = 0.02, 0.11  # the thickness of spindles, and the room between them
 ARCH = extrude([(0.1 * i, 0.5 - 0.04 * i * i) for i in range(-5, 6)], 1).rotate(-90, "x")
 PILLOW = chamfered_box((1, 0.4, 0.7), 0.12).scale((1, 1 / 0.4, 1 / 0.7))
 

@@ -5,8 +5,7 @@ from typing import Annotated, Literal
 
 from shapewright import Range, procedure
 from shapewright.modelling.grammar import Grammar
-from shapewright.modelling.solids import box as block
-from shapewright.modelling.solids import cylinder
+from shapewright.modelling.solids import extrude
 
 grammar = Grammar()
 
@@ -49,20 +48,26 @@ def sled(box, leg):
 
 @grammar.rule("base", when=lambda p: p.base == "pedestal")
 def pedestal(box, leg):
-    yield box.sub((1.5 * leg, None, 1.5 * leg)).fill(cylinder, segments=16).label("column")
-    yield box.sub((0.7 * box.width, 0.04, 0.7 * box.width), anchor=(0.5, 0, 0.5)).fill(cylinder).label("foot")
+    yield box.sub((1.5 * leg, None, 1.5 * leg)).round().label("column")
+    yield box.sub((0.7 * box.width, 0.04, 0.7 * box.width), anchor=(0.5, 0, 0.5)).round().label("foot")
 
 
 @grammar.rule("base")
 def star(box, leg, feet):
-    yield box.sub((1.5 * leg, None, 1.5 * leg)).fill(cylinder, segments=16).label("column")
+    yield box.sub((1.5 * leg, None, 1.5 * leg)).round().label("column")
     yield box.sub((None, 0.05, box.width), anchor=(0.5, 0, 0.5)).fill(spokes, count=feet).label("foot")
 
 
 def spokes(size, count):
-    """Bars from the middle of the floor outwards, one to the front."""
+    """Bars from the middle of the floor outwards, one to the front: an outline in the ground plan, extruded."""
     reach, height, _ = size
-    return block((0.05, height, reach / 2), at=(0, 0, reach / 4)).polar_array(count)
+    half, corner = 0.025, 0.025 / math.sin(math.pi / count)  # of a bar's width; where neighbouring bars meet
+    tip = math.hypot(reach / 2, half), math.atan2(half, reach / 2)
+    outline = []
+    for turn in (2 * math.pi * (i / count + 0.25) for i in range(count)):
+        places = (tip[0], turn - tip[1]), (tip[0], turn + tip[1]), (corner, turn + math.pi / count)
+        outline += [(radius * math.cos(angle), radius * math.sin(angle)) for radius, angle in places]
+    return extrude(outline, height)
 
 
 @grammar.rule("stretchers", when=lambda p: p.stretchers == 0)

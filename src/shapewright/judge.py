@@ -144,9 +144,9 @@ class Judge:
 
         def between(some: Sequence[int], others: Sequence[int]) -> Floats:
             ours, theirs = [misfits[i] for i in some], [misfits[i] for i in others]
-            return light_field.distances(ours, theirs, settings.align, settings.workers)
+            return light_field.distances(ours, theirs, settings.align, 1)
 
-        return group_by_leaders(names, between, settings.cut, settings.cut_absolute, seed=settings.seed)
+        return group_by_leaders(names, between, settings.cut, settings.cut_absolute, threads=settings.workers)
 
 
 def _mesh(shape: Shape | None) -> Mesh | None:

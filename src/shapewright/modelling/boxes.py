@@ -178,8 +178,7 @@ class Box:
             raise ValueError(f"ends: size={size:.4g} along {axis} must lie in 0..{self.size[index]:.4g}")
         near = self._between("ends", index, sign, 0.0, size)
         far = self._between("ends", index, -sign, 0.0, size)
-        facing = _with(self.facing, index, -sign), _with(self.facing, index, sign)
-        return replace(near, facing=facing[0]), replace(far, facing=facing[1])
+        return near._facing(_with(self.facing, index, -sign)), far._facing(_with(self.facing, index, sign))
 
     def corners(self, size: float | tuple[float, float], axis: Axis = "y") -> list[Box]:
         """The four corners along an axis, such as legs; ``size``: of the section, one number or two.
@@ -209,7 +208,7 @@ class Box:
         index, sign = self._side_direction(side)
         at = self.high[index] if sign > 0 else self.low[index]
         patch = self._part("face", _with(self.low, index, at), _with(self.high, index, at))
-        return replace(patch, facing=_with(self.facing, index, sign))
+        return patch._facing(_with(self.facing, index, sign))
 
     def extrude(self, height: float) -> Box:
         """A patch given thickness, outwards; a negative height goes inwards, into the box whose side it is."""
@@ -274,10 +273,17 @@ class Box:
 
     def within(self) -> Box:
         """The space inside the box, before its deformations: what its rule is given to divide."""
-        groups = (*self.groups, Group(self.deformations)) if self.deformations else self.groups
-        return Box(self.low, self.high, self.facing, "", self.names, self.form, (), groups, self.is_void)
+        return Box(self.low, self.high, self.facing, "", self.names, self.form, (), self._inner_groups, self.is_void)
 
     # Inner workings
+
+    def _facing(self, facing: tuple[int, int, int]) -> Box:
+        groups, names = self.groups, self.names
+        return Box(self.low, self.high, facing, self.symbol, names, self.form, self.deformations, groups, self.is_void)
+
+    @property
+    def _inner_groups(self) -> tuple[Group, ...]:
+        return (*self.groups, Group(self.deformations)) if self.deformations else self.groups
 
     @property
     def _domain(self) -> Domain:
@@ -303,8 +309,11 @@ class Box:
         """The piece between two lengths from an end of an axis; neighbours meet in exactly the same coordinate."""
         near, far = (self.low[index], self.high[index])[::sign]
         whole = self.high[index] - self.low[index]
-        ends = sorted(far if length == whole else near + sign * length for length in (start, end))
-        return self._part(verb, _with(self.low, index, ends[0]), _with(self.high, index, ends[1]))
+        first = far if start == whole else near + sign * start
+        last = far if end == whole else near + sign * end
+        if sign < 0:
+            first, last = last, first
+        return self._part(verb, _with(self.low, index, first), _with(self.high, index, last))
 
     def _part(self, verb: str, low: Point, high: Point) -> Box:
         """A box within the deformations of this one, which keeps its label."""
@@ -313,9 +322,8 @@ class Box:
         if high[0] < low[0] or high[1] < low[1] or high[2] < low[2]:
             size = " x ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
             raise ValueError(f"{verb}: a box of {size} would have a negative size")
-        inner = self.within()
         whole = tuple(entry for entry in self.names if entry[0] is None) if self.names else ()
-        return Box(low, high, self.facing, "", whole, None, (), inner.groups, self.is_void)
+        return Box(low, high, self.facing, "", whole, None, (), self._inner_groups, self.is_void)
 
     def __str__(self) -> str:
         size = " x ".join(f"{extent:.4g}" for extent in self.size)

@@ -295,10 +295,9 @@ class _Expansion:
         )
 
     def _apply(self, rule: Rule, box: Box) -> list[Box]:
-        where = f"rule {rule.name}() on the box {box.symbol!r} ({box})"
         missing = [name for name in rule.needs if name not in self.parameters]
         if missing:
-            raise GrammarError(f"{where}: it asks for {', '.join(missing)}, which derive() was not given")
+            raise GrammarError(f"{_at(rule, box)}: it asks for {', '.join(missing)}, which derive() was not given")
         arguments = {name: self.parameters[name] for name in rule.takes if name in self.parameters}
         inner = box.within()
         try:
@@ -307,13 +306,17 @@ class _Expansion:
         except GrammarError:
             raise
         except ValueError as error:
-            raise GrammarError(f"{where}: {error}") from error
+            raise GrammarError(f"{_at(rule, box)}: {error}") from error
         if made is None or not all(isinstance(child, Box) for child in made):
-            raise GrammarError(f"{where}: it must yield boxes, or return one or a list of them")
+            raise GrammarError(f"{_at(rule, box)}: it must yield boxes, or return one or a list of them")
         if not box.is_void and any(child.is_void for child in made):
             outer, scope = inner.groups, Group(scope=self.boxes)
             made = [replace(child, groups=(*outer, scope, *child.groups[len(outer) :])) for child in made]
         return made
+
+
+def _at(rule: Rule, box: Box) -> str:
+    return f"rule {rule.name}() on the box {box.symbol!r} ({box})"
 
 
 def _lines(node: Node, first: str, further: str) -> Iterator[str]:
