@@ -24,6 +24,7 @@ from shapewright.demo import drawings
 from shapewright.judge import judge_of
 from shapewright.rendering.ink import coverage
 from shapewright.rendering.projection import silhouette
+from shapewright.results import Result
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples" / "drawings"
 CHUNK, SIDE = 256, 64
@@ -56,7 +57,7 @@ def pictures(shapes: list[sw.Drawing]) -> np.ndarray:
     return np.array([coverage(shape, SIDE).ravel() for shape in shapes], dtype=np.float32)
 
 
-def sheet(results: list[sw.Result], columns: int = 10, side: int = 120) -> Image.Image:
+def sheet(results: list[Result], columns: int = 10, side: int = 120) -> Image.Image:
     """Each drawing and its replica over each other, worst first: grey is in both, red is missed, blue is too much."""
     rows = -(-len(results) // columns)
     picture = Image.new("RGB", (columns * side, rows * side), "white")

@@ -11,7 +11,7 @@ from shapewright.judge import Judge, judge_of
 from shapewright.modelling.drawing import box, circle
 from shapewright.modelling.solids import box as block
 from shapewright.picture_judge import SCALES, SMALL, UNIT, PictureJudge
-from shapewright.prediction.drawn import DRAWN
+from shapewright.prediction.drawn import DRAWN, DRAWN_THOROUGH
 from shapewright.prediction.refinement import refine
 from shapewright.rendering.ink import HALF
 
@@ -48,6 +48,8 @@ def test_distance_is_fidelity_lost(judge):
 def test_residuals_and_overlaps_are_of_areas(judge):
     same, other, mesh = judge.search_residuals([(3, table()), (3, table(0.1)), (3, block(1).mesh())])
     assert mesh is None and not same.any()
+    ends = [(part.start, part.stop) for part in judge.search_parts]
+    assert [start for start, _ in ends] == [0, *(end for _, end in ends[:-1])] and ends[-1][1] == len(other)
     # Blurs keep the ink; each scale has all of it.
     ink = other.sum() / UNIT / len(SCALES) * (2 * HALF / SMALL) ** 2
     assert ink == pytest.approx(2 * 0.02 * 0.64, rel=0.1)
@@ -107,3 +109,13 @@ def test_a_search_finds_thin_legs_that_nothing_overlaps_at_first():
     assert [build.parameters["bar"] for build in found] == [True, False]
     assert (judge.overlaps(found)[0] > 0.93).all()
     assert DRAWN.evaluations(3) < 250 and DRAWN.within(30, 3).evaluations(3) <= 30
+
+
+@pytest.mark.parametrize("budget", [DRAWN, DRAWN_THOROUGH])
+def test_whatever_else_is_tried_the_best_comes_back_by_the_finest_scale(budget):
+    finest = len(SCALES) - 1
+    others = [i for i, turn in enumerate(budget.rounds) if turn.other]
+    assert others and budget.rounds[-1].part == finest == max(turn.part for turn in budget.rounds)
+    for start, end in zip(others, [*others[1:], len(budget.rounds)], strict=True):
+        assert budget.rounds[start].part < finest and budget.rounds[end - 1].part == finest
+    assert budget.simple < budget.rounds[0].combinations

@@ -137,8 +137,11 @@ def test_variants_find_a_choice_that_the_prediction_excludes_and_plain_starts_wh
         (varied,) = refine(post.space, start, crew, measure, Budget(further))
         assert Budget(further).evaluations(3) == 6 + 3 + 6 + 4
         (plain,) = refine(post.space, far, crew, measure, Budget((Round(2),), simple=1))
+        again = Budget((Round(1), Round(3, other="plain")))
+        (restarted,) = refine(post.space, far, crew, measure_against([post(form="round")]), again)
     assert as_predicted["form"] == "square" and varied["form"] == "round"
     assert plain == {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.5}
+    assert restarted == {**plain, "form": "round"}
     assert Budget((Round(4), Round(1)), simple=3).within(2, 3) == Budget((Round(2),))
 
 

@@ -25,7 +25,6 @@ def _from(part: int, *combinations: int, turns: int) -> tuple[Round, ...]:
     return rounds
 
 
-_PLAIN = (Round(1, other="plain"), *_from(0, 1, 1, 1, 2, turns=2))
 _CHOICE = Round(20, other="choice", part=1)
 DRAWN = Budget(
     (Round(16), *_from(0, 4, 3, 2, 1, turns=1), _CHOICE, *_from(1, 4, 2, 2, turns=1), *_down(3, 1, 2, _FINE)), simple=6
@@ -34,7 +33,8 @@ DRAWN_THOROUGH = Budget(
     (
         Round(22),
         *_from(0, 5, 3, 2, 2, turns=2),
-        *_PLAIN,
+        *(_CHOICE, *_from(1, 5, 3, 2, turns=2)),
+        *(Round(20, other="plain"), *_from(0, 8, 3, 2, 2, turns=2)),
         *(_CHOICE, *_from(1, 5, 3, 2, turns=2)),
         *(*_down(2, 1, 2), *_down(3, 1, 4), *_down(3, 1, 4, _FINE)),
     ),

@@ -38,8 +38,8 @@ class Round:
     the scalars are each moved a little again, because the model has aged; by ``probe``, encoded. part: which of
     the parts of the residuals it goes by; models are kept where that changes, and combinations beyond those that take
     part are dropped. other: instead of all combinations those take part that differ from the best one in one choice
-    ("choice"), or the best one's choices with all scalars at their defaults ("plain"); the best one itself rests until
-    the last part.
+    ("choice"), or these and its own with all scalars at their defaults ("plain"); the best one itself rests until the
+    last part.
     """
 
     combinations: int
@@ -208,9 +208,10 @@ def refine(
             if part != before:
                 search.focus(space, part, turn.combinations, part == parts[-1])
             if turn.other and best.residual is not None:
-                search.leave(
-                    best, _others(space, best.centre) if turn.other == "choice" else [_plain(space, best.centre)]
-                )
+                starts = _others(space, best.centre)
+                if turn.other == "plain":
+                    starts = [_plain(space, start) for start in (best.centre, *starts)]
+                search.leave(best, starts)
             if search.worth(turn.near, goal):
                 for arm in search.arms[: turn.combinations]:
                     arm.slopes = None if turn.afresh else arm.slopes
