@@ -39,7 +39,7 @@ def group_by_leaders(
         return tuple(Group(name, (name,)) for name in names)
     to_leaders = _lead(len(names), between, most)
     limit = cut if absolute else cut * float(to_leaders.max())
-    distances = np.zeros((len(names), len(names)), dtype=np.float32)
+    distances = np.zeros((len(names), len(names)))
 
     def fill_row(i: int) -> None:
         row = np.abs(to_leaders[i + 1 :] - to_leaders[i]).max(axis=1)
