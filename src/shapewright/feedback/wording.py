@@ -264,7 +264,7 @@ def _piece_lines(
         needed = [word for word in words if re.search(rf"\b{word}\b", text)]
         if axis not in anew and any(standing.get(word) != frame for word in needed):
             wanted.append(axis)
-        standing.update({word: "" if axis in anew else frame for word in words if axis in anew or axis in wanted})
+        standing.update({word: NEW if axis in anew else frame for word in words if axis in anew or axis in wanted})
     pairs = [(axis, ", ".join(words[axis] for words in _CORNERS)) for axis in wanted]
     first = [f"{words} = {_bounds(frame)}[:, {axis}]" for axis, words in pairs]
     if len(wanted) == 3:
