@@ -75,6 +75,7 @@ def then(*edits: Edit) -> Edit:
 
 
 FIVE, TABLE, CHAIR = "tables/v5.py", "table/v3.py", "chair/v3.py"
+NO_OVAL = "oval=False, **locals()"
 RULES: dict[str, tuple[str, Edit]] = {
     "stretchers": (FIVE, without(', "support"')),
     "pedestal and foot": (FIVE, without(', "pedestal"')),
@@ -82,12 +83,12 @@ RULES: dict[str, tuple[str, Edit]] = {
     "breadth, lower half": (FIVE, limited("breadth", 0.7, 1.0)),
     "table: columns": (TABLE, without('"column", ')),
     "table: star feet": (TABLE, without(', "star"')),
-    "table: panels": (TABLE, without('"panels", ')),
+    "table: oval tops": (TABLE, then(without("    oval: bool = False,\n"), without("**locals()", instead=NO_OVAL))),
     "table: low heights": (TABLE, limited("height", 0.7, 1.6)),
-    "chair: plinths": (CHAIR, without(', "plinth"')),
+    "chair: low seats": (CHAIR, limited("seat_height", 0.5, 0.75)),
     "chair: star feet": (CHAIR, without('"star", ')),
-    "chair: open arms": (CHAIR, without(', "open"')),
-    "chair: solid arms": (CHAIR, without(', "solid"')),
+    "chair: splayed legs": (CHAIR, limited("splay", 0.0, 0.1)),
+    "chair: leaning backs": (CHAIR, limited("lean", 0.0, 0.1)),
 }
 
 
@@ -101,7 +102,8 @@ def reduced(example: Path, edit: Edit, folder: Path):
 def collection(full: sw.Procedure, cut: sw.Procedure, count: int, seed: int) -> tuple[sw.Collection, list[Parameters]]:
     """Shapes of the whole procedure whose parameters the one without the rule cannot take, and these parameters."""
     vectors = full.space.sample(SAMPLED, seed + 1000)
-    concerned = [v for v in vectors if any(cut.space.carry(v)[name] != v[name] for name in cut.space.names)]
+    absent = full.space.defaults
+    concerned = [v for v in vectors if any(cut.space.carry(v).get(n, absent[n]) != v[n] for n in v)]
     with Workers(full, 1) as crew:
         builds = [build for build in crew.build(concerned[: 2 * count]) if isinstance(build.shape, sw.Mesh)][:count]
     shapes = {f"reference-{i:03d}": build.shape for i, build in enumerate(builds)}

@@ -1,7 +1,7 @@
 import numpy as np
 
 from shapewright.feedback.pieces import Piece
-from shapewright.feedback.relations import NEW, WHOLE, best_frame, bounds_as_told, equal_sizes
+from shapewright.feedback.relations import INNER, NEW, WHOLE, best_frame, bounds_as_told, equal_sizes, inside_of
 
 HEIGHTS = (0.5, 0.7, 0.9)
 FRAMES = [
@@ -65,3 +65,25 @@ def test_the_box_that_a_rule_makes():
     frame, along = best_frame(post, plain)
     made = bounds_as_told(post[0], frame, along, plain[0])
     np.testing.assert_allclose(made, [(-0.24, 0, -0.02), (0.24, HEIGHTS[0] - 0.05, 0.02)], atol=1e-9)
+
+
+def test_a_bar_between_two_others_reaches_into_both():
+    sides = Piece("box", np.array([0.4, 0.1, -0.2]), np.array([0.45, 0.15, 0.2]), mirrored=(True, False))
+    outer = np.array([(-0.45, 0.1, -0.2), (0.45, 0.15, 0.2)])
+    inner = inside_of(sides, outer)
+    np.testing.assert_allclose(inner[:, 0], [-0.4, 0.4])
+    frames = [{WHOLE: each[WHOLE], f"{NEW}bars": outer, f"{INNER}{NEW}bars": inner} for each in FRAMES]
+    bar = pieces(lambda h: [(-0.39, 0.1, -0.03), (0.39, 0.15, 0.03)])
+    assert best_frame(bar, frames)[1][0].ends == ((f"{NEW}bars", 0), (f"{NEW}bars", 1))
+
+
+def test_the_frame_in_which_all_agree():
+    wide = [np.array([(-0.5, 0, -0.3), (0.5, 0.7, 0.3)]), np.array([(-0.5, 0, -0.3), (0.5, 0.7, 0.3)])]
+    legs = [np.array([(-0.5, 0, -0.3), (0.5, 0.6, 0.3)]), np.array([(-0.3, 0, -0.2), (0.3, 0.6, 0.2)])]
+    frames = [{WHOLE: w, "legs": own} for w, own in zip(wide, legs, strict=True)]
+    bars = [
+        Piece("box", np.array([own[1, 0] - 0.04, 0.1, -0.1]), np.array([own[1, 0], 0.14, 0.1]), mirrored=(True, False))
+        for own in legs
+    ]
+    frame, along = best_frame(bars, frames)
+    assert frame == "legs" and along[0].place == "high" and along[0].unlike == 0.0

@@ -81,6 +81,15 @@ def test_a_pedestal_reaches_from_its_foot_to_the_top_in_place_of_the_legs(tmp_pa
     assert part(mesh, "column")[0, 1] == pytest.approx(part(mesh, "disc")[1, 1])
 
 
+def test_a_shelf_behind_a_post_is_told_relative_to_the_table_again(tmp_path):
+    post = pieces(lambda h, d: [(-0.02, 0, -0.02), (0.02, h - 0.05, 0.02)])
+    shelf = pieces(lambda h, d: [(-0.5, 0.3 * h - 0.01, -d / 2), (0.5, 0.3 * h + 0.01, d / 2)])
+    rule = addition([post, shelf], FRAMES, [], None, ["", ""], FREE, "A post and a plate.")
+    assert rule.quantities[-1].values == pytest.approx([0.3] * 4)
+    mesh = built(tmp_path, rule)(height=0.8, post_and_plate=True, plate_level=0.3)
+    assert part(mesh, "plate")[:, 1].mean() == pytest.approx(0.24)
+
+
 def test_bars_in_the_corners_are_mirrored(tmp_path):
     bars = pieces(
         lambda h, d: [(0.45, 0.1 * h, -d / 2), (0.5, 0.1 * h + 0.05, d / 2)], mirrored=(True, False), middle=(0.0, 0.0)

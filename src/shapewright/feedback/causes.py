@@ -96,7 +96,7 @@ def _overlooked(space: ParameterSpace, before: Found, found: Found) -> Cause:
         "before": before.distance,
         "changed": [{"parameter": name, "was": was, "is": value} for name, was, value in changed],
     }
-    fell = f"the distance falls from {before.distance:.2f} to {found.distance:.2f}"
+    fell = f"the distance falls from {before.distance:.3f} to {found.distance:.3f}"
     if changed:
         how = ", ".join(f"{name} is {_word(value)}, not {_word(was)}" for name, was, value in changed)
         return Cause("wrong choice", f"{how}: {fell}", evidence)

@@ -23,17 +23,27 @@ Ranges = Mapping[str, tuple[float, float, float]]
 
 _REMOVED = 0.4  # share of the misfits whose replica has the part, from which on the rule takes it away
 _MOST_PIECES = 3
+_NEAR = 2700.0  # cost of a hypothesis that may well be compatible: the threshold, on the original's scale
 _SHARED = 0.25
 
 
 @dataclass(frozen=True, eq=False)
 class Misfit:
-    """A reference that is not replicated: its index, what was found for it, and hypotheses, the best first."""
+    """A reference that is not replicated: its index, what was found for it, and hypotheses, the best first.
+
+    parameters, replica: whose surface has most in common with the reference's. nearest: the parameters that are nearest
+    by the light field, where they are others.
+    """
 
     row: int
     parameters: Parameters
     replica: Mesh
     hypotheses: tuple[Hypothesis, ...] = ()
+    nearest: Parameters | None = None
+
+    def pressed(self, space: ParameterSpace) -> set[End]:
+        """The ends of Ranges that the nearest parameters rest on."""
+        return pressed(space, self.nearest or self.parameters)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +66,7 @@ class Proposal:
     def start(self, misfit: Misfit) -> Parameters:
         """Where the search begins for a misfit."""
         if self.rule is None:
-            return misfit.parameters
+            return misfit.nearest or misfit.parameters
         middle: Parameters = {q.name: _value(q.whole, self.ranges[q.name][2]) for q in self.rule.quantities}
         flag: Parameters = {self.rule.flag: self.rule.function != ""} if self.rule.flag else {}
         return {**misfit.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}
@@ -94,7 +104,7 @@ def frames_of(replica: Mesh, always: Sequence[str]) -> Frames:
 
 
 def _wider(source: str, procedure: str, space: ParameterSpace, misfits: Sequence[Misfit]) -> Iterator[Proposal]:
-    ends = Counter(end for misfit in misfits for end in sorted(pressed(space, misfit.parameters)))
+    ends = Counter(end for misfit in misfits for end in sorted(misfit.pressed(space)))
     least = max(2, 0.05 * len(misfits))
     common = [end for end, count in ends.most_common(8) if count >= least and _goes_on(space[end[0]], end[1])][:6]
     for chosen in dict.fromkeys([*((end,) for end in common), tuple(common)]):
@@ -107,7 +117,7 @@ def _wider(source: str, procedure: str, space: ParameterSpace, misfits: Sequence
             write(wide)
         except EditError:
             continue
-        members = [m for m in misfits if pressed(space, m.parameters) & set(chosen)]
+        members = [m for m in misfits if m.pressed(space) & set(chosen)]
         title = f"A wider Range of {_listed(names)}"
         starts: dict[int, Parameters] = {m.row: {} for m in members}
         yield Proposal("range", title, write, wide, starts, 0.6 * len(members) - 0.1 * len(chosen), ends=chosen)
@@ -310,7 +320,7 @@ def _proposal(
     worth = 0.0
     for i, (misfit, hypothesis) in enumerate(members):
         starts[misfit.row] = {q.name: _value(q.whole, q.values[i]) for q in rule.quantities}
-        worth += float(np.clip(hypothesis.before / max(hypothesis.cost, 1.0) - 1.0, 0.0, 1.0))
+        worth += float(np.clip(1.5 - hypothesis.cost / _NEAR, 0.0, 1.0))
     return Proposal(
         kind,
         title,

@@ -14,6 +14,8 @@ WHOLE = ""
 """Stands for the whole shape among the frames, which are bounding boxes (2, 3) by label."""
 NEW = "new "
 """Before the names of the rule's own pieces among the frames."""
+INNER = "inner "
+"""Before these, of pieces that stand on both sides: the box between the copies."""
 Frames = Mapping[str, Floats]
 
 _TOUCHING = 0.5
@@ -27,7 +29,8 @@ _THIN = 0.4  # of a piece's own size: sides further off are not its own, however
 @dataclass(frozen=True)
 class Along:
     """A piece along one axis of a frame. size: "full" or "free"; place: how it stands in it. ends: where it reaches
-    from and to, as (frame, 0 for its low or 1 for its high side), when that is not the frame itself.
+    from and to, as (frame, 0 for its low or 1 for its high side), when that is not the frame itself. unlike: share of
+    the misfits that do not agree with the place.
     """
 
     size: str
@@ -35,6 +38,7 @@ class Along:
     ratios: Floats
     offsets: Floats
     ends: tuple[tuple[str, int], tuple[str, int]] | None = None
+    unlike: float = 0.0
 
     @property
     def free(self) -> float:
@@ -42,12 +46,12 @@ class Along:
         moved = np.ptp(np.quantile(self.offsets, [0.1, 0.9])) if self.place == "free" else 0.0
         large = self.size == "free" and float(np.median(self.ratios)) > _LARGE
         count = (self.size == "free") + (self.place == "free") + large
-        return count + 0.5 * float(spread + moved) + 0.3 * bool(self.ends)
+        return count + self.unlike + 0.5 * float(spread + moved) + 0.3 * bool(self.ends)
 
 
 def best_frame(several: Sequence[Piece], frames: Sequence[Frames]) -> tuple[str, tuple[Along, ...]]:
     """The frame that leaves least free; the whole shape on a tie."""
-    shared = [name for name in frames[0] if all(name in each for each in frames)]
+    shared = [name for name in frames[0] if not name.startswith(INNER) and all(name in each for each in frames)]
     found = {name: _along(several, frames, name, shared) for name in shared}
     best = min(
         (name for name in shared if not name.startswith(NEW)),
@@ -75,7 +79,8 @@ def _along(several: Sequence[Piece], frames: Sequence[Frames], frame: str, share
         slim = several[0].kind not in ("box", "slats x", "slats y", "slats z") and several[0].thin[axis]
         full = (not slim) & (np.abs(low - start) < slack) & (np.abs(high - end) < slack) & (high - low > 0.5 * extent)
         if full.mean() >= _AGREE and not mirrored:
-            result.append(Along("full", "middle", np.ones(len(several)), np.full(len(several), 0.5)))
+            half = np.full(len(several), 0.5)
+            result.append(Along("full", "middle", 2.0 * half, half, unlike=1.0 - float(full.mean())))
             continue
         ends = None if mirrored else _ends(low, high, frames, axis, slack, shared)
         if ends:
@@ -85,14 +90,25 @@ def _along(several: Sequence[Piece], frames: Sequence[Frames], frame: str, share
         agreed = sorted((p for p in possible if places[p].mean() >= _AGREE), key=lambda p: -float(places[p].mean()))
         middle = (start + end) / 2.0
         offset = ((low + high) / 2.0 - middle) / extent * 2.0 if mirrored else ((low + high) / 2.0 - start) / extent
-        result.append(Along("free", agreed[0] if agreed else "free", (high - low) / extent, offset))
+        place, unlike = (agreed[0], 1.0 - float(places[agreed[0]].mean())) if agreed else ("free", 0.0)
+        result.append(Along("free", place, (high - low) / extent, offset, unlike=unlike))
     return tuple(result)
 
 
 def _ends(
     low: Floats, high: Floats, frames: Sequence[Frames], axis: int, slack: Floats, shared: Sequence[str]
 ) -> tuple[tuple[str, int], tuple[str, int]] | None:
-    """The sides of parts that pieces reach from and to, where these are two different ones."""
+    """The sides of parts that pieces reach from and to, where these are two different ones.
+
+    A piece between the copies of another reaches from the outer side of one to that of the other, so that they meet.
+    """
+    for name in shared:
+        if all(f"{INNER}{name}" in each for each in frames):
+            outer, inner = (np.array([each[key][:, axis] for each in frames]) for key in (name, f"{INNER}{name}"))
+            begins = (low > outer[:, 0] - slack) & (low < inner[:, 0] + slack)
+            ends = (high < outer[:, 1] + slack) & (high > inner[:, 1] - slack)
+            if (outer != inner).any() and (begins & ends).mean() >= _AGREE:
+                return (name, 0), (name, 1)
     chosen: list[tuple[str, int]] = []
     near = np.minimum(slack * (_TOUCH / _FLUSH), np.maximum(_THIN * (high - low), 0.2 * slack))
     for end in (low, high):
@@ -130,6 +146,16 @@ def bounds_as_told(piece: Piece, frame: str, along: Sequence[Along], frames: Fra
         low[axis], high[axis] = middle - half, middle + half
     told_so = replace(piece, low=low, high=high).copies
     return np.stack([np.min([copy.low for copy in told_so], axis=0), np.max([copy.high for copy in told_so], axis=0)])
+
+
+def inside_of(piece: Piece, outer: Floats) -> Floats:
+    """The box (2, 3) between a piece's copies, given the box around them all."""
+    inner = outer.copy()
+    for axis, mirrored in ((0, piece.mirrored[0]), (2, piece.mirrored[1])):
+        if mirrored:
+            inner[0, axis] += piece.size[axis]
+            inner[1, axis] -= piece.size[axis]
+    return inner
 
 
 def equal_sizes(several: Sequence[Piece], along: Sequence[Along]) -> dict[int, int]:

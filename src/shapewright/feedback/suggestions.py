@@ -28,6 +28,8 @@ EVALUATIONS = 9_000
 """Shapes built for all trials together, about."""
 _STUDIED = 48  # misfits that hypotheses are made for, at most
 _GLANCES = 8  # misfits in a first trial
+_GLANCED = 20  # proposals that are tried on some misfits, at most: each starts workers of its own
+_FEW = 0.12  # share of the misfits, of which a proposal must be for more to be tried
 _CONFIRMED = 6  # proposals that are tried on all misfits, at most
 _SAMPLES = 40
 _PICTURED = 3
@@ -117,7 +119,7 @@ def _misfits(explained: Sequence[Explained], judge: Judge) -> list[Misfit]:
         if each.row in studied:
             replica = each.best.mesh
             guesses = hypotheses(each.misfit, each.reference, replica, lambda meshes: _costs(judge, each.row, meshes))
-        return Misfit(each.row, each.best.parameters, each.best.mesh, tuple(guesses[:3]))
+        return Misfit(each.row, each.best.parameters, each.best.mesh, tuple(guesses[:3]), each.nearest.parameters)
 
     return in_threads(study, explained, judge.settings.workers)
 
@@ -144,7 +146,8 @@ def _glanced(
     """The proposals that bring most to a few of the misfits they are for, best first."""
     scores: list[tuple[float, int, Proposal]] = []
     spent, each = 0, GLANCE.evaluations(_scalars(procedure.space))
-    for number, idea in enumerate(ideas):
+    worthy = [idea for idea in ideas if len(idea.starts) > _FEW * len(misfits)]
+    for number, idea in enumerate(worthy[:_GLANCED]):
         members = [misfit for misfit in misfits if misfit.row in idea.starts]
         some = [members[i] for i in sorted({int(i) for i in np.linspace(0, len(members) - 1, _GLANCES)})]
         if spent + len(some) * each > 0.4 * EVALUATIONS:

@@ -14,7 +14,17 @@ import numpy as np
 
 from shapewright.feedback.edit import NewParameter, NewRule
 from shapewright.feedback.pieces import WIDER_FOOT, WIDER_TOP, Kind, Piece
-from shapewright.feedback.relations import NEW, WHOLE, Along, Frames, best_frame, bounds_as_told, equal_sizes
+from shapewright.feedback.relations import (
+    INNER,
+    NEW,
+    WHOLE,
+    Along,
+    Frames,
+    best_frame,
+    bounds_as_told,
+    equal_sizes,
+    inside_of,
+)
 
 _LINE = 116  # characters, indented by four
 _CORNERS = (("left", "bottom", "back"), ("right", "top", "front"))
@@ -95,6 +105,8 @@ def addition(
     that go. inset: how far each misfit wants the rest drawn in, None where it stays. labels: of the pieces, "" to be
     named. free: makes a name of the file's that is not taken. note: for the docstring.
     """
+    order = sorted(range(len(pieces)), key=lambda i: not any(pieces[i][0].mirrored))  # others reach from side to side
+    pieces, labels = [pieces[i] for i in order], [labels[i] for i in order]
     nouns = _distinct([several[len(several) // 2].noun for several in pieces])
     stem = free("_and_".join(nouns)[:40].strip("_"))
     body: list[str] = []
@@ -107,7 +119,9 @@ def addition(
         frame, along = best_frame(several, known)
         lines, asked, used = _piece_lines(several, known, frame, along, free(noun), label or noun, standing)
         for each, piece in zip(known, several, strict=True):
-            each[f"{NEW}{free(noun)}"] = bounds_as_told(piece, frame, along, each)
+            outer = bounds_as_told(piece, frame, along, each)
+            each[f"{NEW}{free(noun)}"] = outer
+            each[f"{INNER}{NEW}{free(noun)}"] = inside_of(piece, outer)
         body += lines
         quantities += asked
         imports.append(used)
@@ -250,7 +264,7 @@ def _piece_lines(
         needed = [word for word in words if re.search(rf"\b{word}\b", text)]
         if axis not in anew and any(standing.get(word) != frame for word in needed):
             wanted.append(axis)
-        standing.update({word: "" if axis in anew else frame for word in words if axis in anew or axis in wanted})
+        standing.update({word: NEW if axis in anew else frame for word in words if axis in anew or axis in wanted})
     pairs = [(axis, ", ".join(words[axis] for words in _CORNERS)) for axis in wanted]
     first = [f"{words} = {_bounds(frame)}[:, {axis}]" for axis, words in pairs]
     if len(wanted) == 3:

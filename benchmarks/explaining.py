@@ -1,0 +1,47 @@
+"""What explaining a large iteration costs beyond the fit: seconds, and CPU seconds of all its processes, by stage.
+
+    python benchmarks/explaining.py [--count 200] [--seed 0] [--workers 2] [--procedure examples/tables/v3.py]
+
+The references are random tables of examples/tables/v5.py; what is found for them is what a quick refinement from their
+true parameters gives, so no network is trained. CPU seconds are those to read on a busy machine.
+"""
+
+import argparse
+import os
+import time
+from pathlib import Path
+
+import shapewright as sw
+from causes import WHOLE, Case, made
+from shapewright.commands import suggestions_of
+from shapewright.feedback.explanation import explain
+
+
+def cpu_seconds() -> float:
+    """Of this process and those it started that have ended."""
+    return sum(os.times()[:4])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--procedure", type=Path, default=WHOLE.with_name("v3.py"))
+    arguments = parser.parse_args()
+    settings = sw.Settings(seed=arguments.seed, workers=arguments.workers)
+    whole, procedure = sw.load_procedure(WHOLE), sw.load_procedure(arguments.procedure)
+    truth = {f"{i:03d}": vector for i, vector in enumerate(whole.space.sample(arguments.count, seed=arguments.seed))}
+    references = sw.Collection.of({name: whole(**vector) for name, vector in truth.items()})
+    iteration = made(Case("", ()), procedure, references, truth, settings)
+    print(f"{len(iteration.incompatible)} of {len(iteration)} references are incompatible", flush=True)
+    for name, hook in (("causes", None), ("causes and suggestions", suggestions_of)):
+        started, spent = time.perf_counter(), cpu_seconds()
+        explanation = explain(procedure, references, iteration, suggest=hook)
+        seconds, spent = time.perf_counter() - started, cpu_seconds() - spent
+        stages = ", ".join(f"{stage} {stage_seconds:.1f}" for stage, stage_seconds in explanation.seconds.items())
+        print(f"{name}: {seconds:.1f} s, {spent:.1f} CPU s ({stages})", flush=True)
+
+
+if __name__ == "__main__":
+    main()
