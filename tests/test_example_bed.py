@@ -44,7 +44,8 @@ def test_parameters_say_how_large_a_bed_is(version):
         head = values["head"] + values.get("arch", 0) * width
         foot = values["foot"] + values.get("arch", 0) * width / 2
         rails = constants["RAIL"] if values.get("rails") else 0
-        top = values["height"] + (values["storey"] if values.get("bunk") else 0) + max(head, foot, rails)
+        storey = values["headroom"] + (1 - values["clearance"]) * values["height"] if values.get("bunk") else 0
+        top = values["height"] + storey + max(head, foot, rails)
         np.testing.assert_allclose(low, [-values["width"] / 2, 0, -0.5], atol=1e-6)
         np.testing.assert_allclose(high, [values["width"] / 2, top, 0.5], atol=1e-6)
 
