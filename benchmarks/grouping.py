@@ -1,6 +1,6 @@
 """Groups without the distance of every pair against groups with it: how alike they are, how wide, how long it takes.
 
-    python benchmarks/grouping.py FOLDER... [--synthetic 600] [--most 600]
+    python benchmarks/grouping.py FOLDER... [--synthetic 600 2000] [--most 150]
 
 One row a collection, each with the cut of 0.4 of the largest distance and with the absolute one of 3400 / 15000:
 groups of both methods, adjusted Rand index between them (1: the same groups; 0: as chance would have it), the
@@ -18,7 +18,7 @@ from sklearn.metrics import adjusted_rand_score
 import shapewright as sw
 from shapewright.comparison import light_field
 from shapewright.comparison.grouping import Group, group
-from shapewright.comparison.leaders import group_by_leaders
+from shapewright.comparison.leaders import LEADERS, group_by_leaders
 
 TABLES = Path(__file__).parent.parent / "examples" / "tables" / "v5.py"
 
@@ -45,7 +45,7 @@ def compare(title: str, described: list[light_field.Descriptor], most: int) -> N
         def between(some, others):
             nonlocal taken
             taken += len(some) * len(others)
-            return light_field.distances([described[i] for i in some], [described[i] for i in others])
+            return light_field.distances([described[i] for i in some], [described[i] for i in others], threads=1)
 
         started = time.perf_counter()
         whole = group(names, apart, cut, absolute)
@@ -70,7 +70,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="*", type=Path)
     parser.add_argument("--synthetic", type=int, nargs="*", default=[])
-    parser.add_argument("--most", type=int, default=600)
+    parser.add_argument("--most", type=int, default=LEADERS)
     arguments = parser.parse_args()
     heads = "collection, shapes, cut, groups of all pairs, groups, Rand, Rand without 1/20, widest / cut, pairs, s, s"
     print("| " + heads.replace(", ", " | ") + " |")

@@ -119,6 +119,48 @@ def test_budgets_are_cut_to_what_there_is_time_for():
     assert QUICK.within(3, 3).evaluations(3) == 3 and QUICK.within(0, 3).evaluations(3) == 1
 
 
+def test_variants_find_a_choice_that_the_prediction_excludes_and_plain_starts_what_it_missed():
+    target = post(height=1.4, width=0.3, form="round", cap=0.5)
+    start = inferred((0.65, 0.2, SURE, 0.5))
+    built = []
+
+    def measure(pairs):
+        built.extend(pairs)
+        return measure_against([target])(pairs)
+
+    rounds = (Round(1), Round(1), Round(1, 2))
+    further = (*rounds, Round(3, other="choice"), Round(2, probe=0.01), Round(2, 2))
+    far = inferred((0.0, 1.0, SURE, 0.0))
+    with Workers(post, 1) as crew:
+        (as_predicted,) = refine(post.space, start, crew, measure, Budget(rounds))
+        assert len(built) == Budget(rounds).evaluations(3) == 6
+        (varied,) = refine(post.space, start, crew, measure, Budget(further))
+        assert Budget(further).evaluations(3) == 6 + 3 + 6 + 4
+        (plain,) = refine(post.space, far, crew, measure, Budget((Round(2),), simple=1))
+    assert as_predicted["form"] == "square" and varied["form"] == "round"
+    assert plain == {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.5}
+    assert Budget((Round(4), Round(1)), simple=3).within(2, 3) == Budget((Round(2),))
+
+
+def test_the_best_rests_while_others_are_tried_by_a_coarser_part():
+    def measure(pairs):
+        """Coarsely any second part is wrong; finely the bare post is, and others are right at a width of 0.4."""
+        coarse = [0.0 if len(shape.vertices) == 8 else 10.0 for _, shape in pairs]
+        widths = [np.ptp(shape.vertices[shape.vertices[:, 1] < 0][:, 0]) for _, shape in pairs]
+        return [np.array([0.0 if c else 5.0, w - 0.2, c]) for c, w in zip(coarse, widths, strict=True)]
+
+    fine, coarse = slice(0, 2), slice(2, 3)
+    start = inferred((0.5, 0.2, SURE, 0.5))
+    first = (*(Round(1, part=1),) * 4, Round(3, other="choice"), Round(3), Round(3))
+    with Workers(post, 1) as crew:
+        found = [
+            refine(post.space, start, crew, measure, Budget(rounds), parts=(coarse, fine))[0]
+            for rounds in (first[:4], first, (*first, Round(1, part=1)))
+        ]
+    assert [values["form"] for values in found] == ["square", "bare", "square"]
+    assert found[0]["width"] == pytest.approx(0.4) == found[2]["width"]
+
+
 def test_only_what_is_nearly_compatible_is_explored_further():
     start = inferred((0.5, 0.5, SURE, 0.5), (0.5, 0.5, SURE, 0.5))
     target = post(height=1.0, width=0.5, cap=0.9)

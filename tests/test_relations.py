@@ -1,7 +1,7 @@
 import numpy as np
 
 from shapewright.feedback.pieces import Piece
-from shapewright.feedback.relations import NEW, WHOLE, best_frame, equal_sizes
+from shapewright.feedback.relations import NEW, WHOLE, best_frame, bounds_as_told, equal_sizes
 
 HEIGHTS = (0.5, 0.7, 0.9)
 FRAMES = [
@@ -50,3 +50,18 @@ def test_equal_sizes_are_one_quantity():
     bar = pieces(lambda h: [(-0.3, 0.2, -0.02), (0.3, 0.2 + 0.04, 0.02)])
     _, along = best_frame(bar, FRAMES)
     assert equal_sizes(bar, along) == {2: 1}
+
+
+def test_a_thin_piece_does_not_reach_from_one_side_to_the_same():
+    low = [{**each, "legs": each[WHOLE]} for each in FRAMES]
+    disc = pieces(lambda h: [(-0.25, 0, -0.25), (0.25, 0.04, 0.25)])
+    _, along = best_frame(disc, low)
+    assert along[1].ends is None and along[1].size == "free" and along[1].place == "low"
+
+
+def test_the_box_that_a_rule_makes():
+    post = pieces(lambda h: [(0.2, 0.02, -0.02), (0.24, h - 0.06, 0.02)], mirrored=(True, False))
+    plain = [{name: each[name] for name in (WHOLE, "top")} for each in FRAMES]
+    frame, along = best_frame(post, plain)
+    made = bounds_as_told(post[0], frame, along, plain[0])
+    np.testing.assert_allclose(made, [(-0.24, 0, -0.02), (0.24, HEIGHTS[0] - 0.05, 0.02)], atol=1e-9)

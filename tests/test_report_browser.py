@@ -7,6 +7,7 @@ import itertools
 import json
 import os
 import select
+import shlex
 import shutil
 import subprocess
 import sys
@@ -269,4 +270,21 @@ def test_many_references_fit_the_width(browser: Browser, tmp_path: Path, width: 
     assert browser.ask("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
     browser.ask("show(60)")
     assert browser.ask("viewer.firstElementChild.scrollWidth <= viewer.firstElementChild.clientWidth")
+    assert browser.trouble() == []
+
+
+def test_marking_a_pair_gives_the_command(browser: Browser, report: Path) -> None:
+    browser.open(report)
+    browser.click("#pair-0")
+    assert browser.text("#viewer-command") == ""
+    browser.click("[data-mark=different]")
+    assert browser.text("#viewer-command") == f"shapewright mark {report.parent} fir different"
+    browser.press("ArrowRight")
+    assert browser.text("#viewer-command") == ""
+    browser.ask("show(pairs.length - 1)")
+    browser.click("[data-mark=same]")
+    assert shlex.split(browser.ask("viewer.querySelector('code').textContent"))[3] == EVIL
+    browser.press("Escape")
+    browser.click("#pair-4")
+    assert browser.shown("#viewer-marks") == 0
     assert browser.trouble() == []

@@ -202,6 +202,8 @@ def _replicate(
         judge.goal,
         stages.step,
         new=new,
+        enough=judge.search_enough,
+        parts=judge.search_parts,
     )
     vectors = found.parameters(predicted)
     for i, values in zip(rows, refined, strict=True):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import shutil
 import sys
 import tempfile
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -13,8 +12,9 @@ import typer
 from rich.console import Console
 from rich.markup import escape
 
-from shapewright import commands
+from shapewright import commands, files
 from shapewright.options import (
+    Augment,
     Cameras,
     Device,
     Epochs,
@@ -41,7 +41,6 @@ from shapewright.workspace import (
     check_writable,
     next_run,
     previous_run,
-    read_record,
 )
 
 if TYPE_CHECKING:
@@ -87,6 +86,7 @@ def fit(
     epochs: Epochs = None,
     cameras: Cameras = None,
     views: Views = None,
+    augment: Augment = False,
     refine: Refine = None,
     rounds: Annotated[int, typer.Option(min=0, help="Rounds of adaptive sampling around what was found.")] = 0,
     previous: Annotated[
@@ -128,6 +128,7 @@ def fit(
         preset,
         **{**(commands.judged_by_marks(folder) if marks else {}), **given},
         seed=seed,
+        augment=augment,
         rounds=rounds,
         device=device,
         fidelity=fidelity,
@@ -160,6 +161,7 @@ def evaluate(
     epochs: Epochs = None,
     cameras: Cameras = None,
     views: Views = None,
+    augment: Augment = False,
     refine: Refine = None,
     compare: Annotated[
         Literal["cameras", "views", "both"] | None,
@@ -175,7 +177,7 @@ def evaluate(
     from shapewright.evaluation import summary, variants
 
     given = _given(samples=samples, epochs=epochs, cameras=cameras, views=views, refine=refine)
-    settings = Settings.preset(preset, **given, device=device, workers=workers)
+    settings = Settings.preset(preset, **given, augment=augment, device=device, workers=workers)
     author = load_procedure(procedure)
     found = []
     for variant in variants(settings, compare):
@@ -192,115 +194,8 @@ def evaluate(
         print_json({"variants": found} if compare else found[0])
 
 
-@app.command()
-def sample(
-    procedure: ProcedureArgument,
-    out_dir: Annotated[
-        Path, typer.Option("--out", help="Folder for the shapes; one that holds the first of them is gone on with.")
-    ],
-    count: Annotated[int, typer.Option("-n", "--count", min=1, help="How many shapes.")] = 10,
-    format: Annotated[
-        Literal["glb", "ply", "obj", "stl", "off"], typer.Option(help="Kind of file; drawings are written as SVG.")
-    ] = "glb",
-    seed: Seed = 0,
-    workers: Workers = None,
-    json: Json = False,
-) -> None:
-    """Write random shapes of a procedure, and a table of their parameters and soundness."""
-    from shapewright.console import print_json, progress_bars
-    from shapewright.progress import Progress
-    from shapewright.sampling import MANIFEST, write_samples
-
-    folder = out_dir.absolute()
-    try:
-        with progress_bars(err) as listen:
-            samples = write_samples(
-                load_procedure(procedure),
-                count,
-                folder,
-                format,
-                seed,
-                workers,
-                lambda done, total: listen(Progress("sample", done, total)),
-            )
-    except KeyboardInterrupt:
-        err.print(f"stopped: what {MANIFEST} lists is whole; the same command goes on from there")
-        raise typer.Exit(130) from None
-    if samples.failures:
-        err.print(f"[yellow]failed:[/] {escape(samples.failures)}", highlight=False)
-    if json:
-        print_json({"out": str(folder), "manifest": str(folder / MANIFEST), **asdict(samples)})
-    else:
-        unsound = f", {samples.unsound} of them unsound," if samples.unsound else ""
-        out.print(f"{samples.shapes} shapes{unsound} and {MANIFEST} in {escape(str(out_dir))}", highlight=False)
-
-
-@app.command()
-def silhouettes(
-    references: Annotated[str, typer.Argument(help="Meshes: a folder, a glob in quotes, a CSV manifest, or a file.")],
-    out_dir: Annotated[Path, typer.Option("--out", help="Folder for the drawings.")],
-    view: Annotated[Literal["front", "side", "top"], typer.Option(help="Where they are seen from.")] = "front",
-    format: Annotated[Literal["svg", "png"], typer.Option(help="Kind of file.")] = "svg",
-    up: Up = "y",
-    front: Front = None,
-    workers: Workers = None,
-    json: Json = False,
-) -> None:
-    """Write silhouettes of meshes as drawings, which procedures that draw can be fitted to."""
-    from shapewright.console import print_json
-    from shapewright.silhouettes import write_silhouettes
-
-    loaded = _load(references, up, front)
-    skipped = {str(path): reason for path, reason in loaded.skipped.items()}
-    paths, unseen = write_silhouettes(loaded, out_dir.absolute(), view, format, workers)
-    for name, reason in (skipped | unseen).items():
-        err.print(f"[yellow]skipped[/] {escape(name)}: {escape(reason)}", highlight=False, soft_wrap=True)
-    if json:
-        print_json({"out": str(out_dir.absolute()), "drawings": len(paths), "skipped": skipped | unseen})
-    else:
-        out.print(f"{len(paths)} drawings in {escape(str(out_dir))}", highlight=False)
-
-
-@app.command()
-def report(
-    run: Annotated[Path, typer.Argument(help="Folder of a run.")],
-    previous: Annotated[
-        Path | None, typer.Option(help="Run to compare with.  [dim]default: the one before it in the same folder[/]")
-    ] = None,
-    json: Json = False,
-) -> None:
-    """Write a run's report anew and print its path."""
-    from shapewright.console import print_json
-    from shapewright.report import write_report
-
-    read_record(run)
-    if previous:
-        read_record(previous)
-    path = write_report(run.absolute(), previous or previous_run(run.absolute()))
-    if json:
-        print_json({"report": str(path)})
-    else:
-        out.print(escape(str(path)), soft_wrap=True, highlight=False)
-
-
-@app.command()
-def compare(
-    before: Annotated[Path, typer.Argument(help="Folder of the earlier run.")],
-    after: Annotated[Path, typer.Argument(help="Folder of the later run.")],
-    json: Json = False,
-) -> None:
-    """Show what changed between two runs: newly compatible, lost, closer, further."""
-    from shapewright.console import print_comparison, print_json
-    from shapewright.report import compare as compare_records
-
-    comparison = compare_records(read_record(after), read_record(before))
-    if json:
-        print_json(asdict(comparison))
-    else:
-        print_comparison(out, before, after, comparison)
-
-
-app.command()(studio)
+for command in (files.sample, files.silhouettes, commands.report, commands.compare, studio):
+    app.command()(command)
 
 
 @app.command()

@@ -1,4 +1,4 @@
-"""Commands about a run that is there: explain it, mark its pairs."""
+"""Commands about runs that are there: explain one, mark its pairs, write its report anew, compare two."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 
 from shapewright.marks import marks_path
 from shapewright.options import Json, Workers
-from shapewright.workspace import RunError, cache_folder, previous_run
+from shapewright.workspace import RunError, cache_folder, previous_run, read_record
 
 if TYPE_CHECKING:
     from shapewright.comparison.verdict import Verdict
@@ -76,6 +77,43 @@ def mark(
         print_json({"path": str(path), **asdict(found)})
     else:
         print_verdict(out, path, found)
+
+
+def report(
+    run: Run,
+    previous: Annotated[
+        Path | None, typer.Option(help="Run to compare with.  [dim]default: the one before it in the same folder[/]")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Write a run's report anew and print its path."""
+    from shapewright.console import print_json
+    from shapewright.report import write_report
+
+    read_record(run)
+    if previous:
+        read_record(previous)
+    path = write_report(run.absolute(), previous or previous_run(run.absolute()))
+    if json:
+        print_json({"report": str(path)})
+    else:
+        out.print(escape(str(path)), soft_wrap=True, highlight=False)
+
+
+def compare(
+    before: Annotated[Path, typer.Argument(help="Folder of the earlier run.")],
+    after: Annotated[Path, typer.Argument(help="Folder of the later run.")],
+    json: Json = False,
+) -> None:
+    """Show what changed between two runs: newly compatible, lost, closer, further."""
+    from shapewright.console import print_comparison, print_json
+    from shapewright.report import compare as compare_records
+
+    comparison = compare_records(read_record(after), read_record(before))
+    if json:
+        print_json(asdict(comparison))
+    else:
+        print_comparison(out, before, after, comparison)
 
 
 def judged_by_marks(folder: Path) -> dict[str, Any]:

@@ -87,9 +87,17 @@ def _refined(procedure: Procedure, crew: Workers, lesson: Lesson, settings: Sett
     judge = judge_of(shapes, settings)
     inferred = lesson.predictor.infer(held_out.shapes)
     stages.begin("refine", 1)
-    budget, measure = lesson.budget(settings), judge.search_residuals
     found = refine(
-        procedure.space, inferred, crew, measure, budget, settings.seed, goal=judge.goal, progress=stages.step
+        procedure.space,
+        inferred,
+        crew,
+        judge.search_residuals,
+        lesson.budget(settings),
+        settings.seed,
+        goal=judge.goal,
+        progress=stages.step,
+        enough=judge.search_enough,
+        parts=judge.search_parts,
     )
     encoded = np.array([procedure.space.encode(values) for values in found], dtype=np.float32)
     answers = [

@@ -85,6 +85,16 @@ class Judge:
 
         return in_threads(residual, pairs, self.settings.workers)
 
+    @property
+    def search_parts(self) -> tuple[slice, ...]:
+        """What a search goes by: all of the residuals."""
+        return (slice(None),)
+
+    @property
+    def search_enough(self) -> float:
+        """A cost at which a search may end: there is none."""
+        return -np.inf
+
     def _targets(self, pairs: Sequence[tuple[int, Shape]]) -> dict[int, AlignedCost]:
         """By index, the references of the pairs that can be compared."""
         return {i: AlignedCost(d) for i in {i for i, _ in pairs} if (d := self.descriptors[i]) is not None}
@@ -134,9 +144,9 @@ class Judge:
 
         def between(some: Sequence[int], others: Sequence[int]) -> Floats:
             ours, theirs = [misfits[i] for i in some], [misfits[i] for i in others]
-            return light_field.distances(ours, theirs, settings.align, settings.workers)
+            return light_field.distances(ours, theirs, settings.align, 1)
 
-        return group_by_leaders(names, between, settings.cut, settings.cut_absolute, seed=settings.seed)
+        return group_by_leaders(names, between, settings.cut, settings.cut_absolute, threads=settings.workers)
 
 
 def _mesh(shape: Shape | None) -> Mesh | None:

@@ -11,11 +11,13 @@ import numpy as np
 
 from shapewright.building import Build, Limits, Workers, describe_failures
 from shapewright.parameters import Parameters, Scalar
+from shapewright.prediction.augmentation import augmented
 from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset, shapes_of, split
 from shapewright.prediction.devices import pick
+from shapewright.prediction.drawn import DRAWN, DRAWN_THOROUGH
 from shapewright.prediction.evaluation import measure
 from shapewright.prediction.predictor import Predictor
-from shapewright.prediction.refinement import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, Budget
+from shapewright.prediction.refinement import QUICK, THOROUGH, Budget
 from shapewright.prediction.sensitivity import without_effect
 from shapewright.prediction.training import Epoch, Schedule, train_network
 from shapewright.prediction.vgg import VGG19Network, find_weights
@@ -91,6 +93,8 @@ def learn(
     stages.begin("render", len(vectors))
     data = join([first, _draw(procedure, builds[FIRST:], cameras, settings, kind)]) if builds[FIRST:] else first
     parts = [data.take(rows) for rows in split(len(data), settings.seed)]
+    if settings.augment:
+        parts[0] = augmented(parts[0], settings.seed, settings.workers)
     failed = [build for build in builds if build.failure]
     facts = {
         "build_seconds": float(np.median([build.seconds for build in builds])),

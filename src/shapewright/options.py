@@ -21,6 +21,10 @@ Cameras = Annotated[
     Literal["fixed", "learned"] | None, typer.Option(help="Whether they move.  [dim]default: the preset's[/]")
 ]
 Views = Annotated[int | None, typer.Option(min=1, max=32, help="Number of cameras.  [dim]default: the preset's[/]")]
+Augment = Annotated[
+    bool,
+    typer.Option("--augment", help="Train on shapes turned, stretched and jittered a little."),
+]
 Refine = Annotated[
     Literal["off", "quick", "thorough"] | None,
     typer.Option(help="Search on from the prediction.  [dim]default: the preset's[/]"),

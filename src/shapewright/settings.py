@@ -19,6 +19,8 @@ class Settings:
     the shape's largest extent. cameras: "learned" moves them with the network, at the learning rate camera_rate, in
     radians and units of distance.
 
+    augment: train on shapes that are turned, stretched and jittered a little, as scanned and modelled references are.
+
     warm_epochs, warm_samples: of a network that goes on from an earlier one. rounds: of adaptive sampling, each with
     round_samples more samples around what was found for the references and warm_epochs more of training.
 
@@ -56,6 +58,7 @@ class Settings:
     camera_distance: float = 2.6
     cameras: Literal["fixed", "learned"] = "fixed"
     camera_rate: float = 0.03
+    augment: bool = False
     warm_epochs: int = 5
     warm_samples: int = 2000
     rounds: int = 0

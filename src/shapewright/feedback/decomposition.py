@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -108,7 +106,7 @@ def _piece(
 
 def _rows(pieces: Sequence[Piece], unit: float) -> list[Piece]:
     """The pieces, those that stand in a row at equal distances replaced by slats."""
-    copies_of = [_copies(piece) for piece in pieces]
+    copies_of = [piece.copies for piece in pieces]
     copies = [copy for several in copies_of for copy in several]
     kinds: tuple[Kind, Kind, Kind] = ("slats x", "slats y", "slats z")
     for axis in range(3):
@@ -132,15 +130,3 @@ def _rows(pieces: Sequence[Piece], unit: float) -> list[Piece]:
             rest = [p for p, own in zip(pieces, copies_of, strict=True) if not inside & {id(copy) for copy in own}]
             return [made, *_rows(rest, unit)]
     return list(pieces)
-
-
-def _copies(piece: Piece) -> list[Piece]:
-    """A mirrored piece as pieces of their own."""
-    copies = []
-    for x, z in product(*((False, True) if mirrored else (False,) for mirrored in piece.mirrored)):
-        low, high = piece.low.copy(), piece.high.copy()
-        for axis, turned, middle in ((0, x, piece.middle[0]), (2, z, piece.middle[1])):
-            if turned:
-                low[axis], high[axis] = 2 * middle - high[axis], 2 * middle - low[axis]
-        copies.append(replace(piece, low=low, high=high, mirrored=(False, False)))
-    return copies

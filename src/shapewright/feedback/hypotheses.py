@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from shapewright.feedback.attachment import loose
 from shapewright.feedback.decomposition import decompose
 from shapewright.feedback.interior import filled
 from shapewright.feedback.pieces import Kind, Piece
@@ -28,6 +29,7 @@ _SURPLUS = 0.5  # share of a part's visible surface that is surplus, from which 
 _BETTER = 0.88  # of the replica's cost, that a hypothesis must stay below
 _PLAIN, _FANCY = 0.985, 0.93  # of the cost of a box, below which a plain other form is taken, or a fancy one
 _PRICE = 220.0  # cost that each part taken away and each piece must save
+_LOOSE = 1500.0  # the same of each piece that hangs in the air
 _OVERLAP = 0.2
 _EVEN = 0.93
 _INSETS = (0.62, 0.71, 0.82, 0.91)
@@ -37,6 +39,7 @@ _INSETS = (0.62, 0.71, 0.82, 0.91)
 class Hypothesis:
     """A change of a replica. removed: labels of parts; inset: those drawn towards the middle along x and z, by factors
     scale; pieces: what is put in, in the replica's units. cost: of the changed replica; before: of the replica.
+    loose: number of the pieces that hang in the air.
     """
 
     removed: tuple[str, ...] = ()
@@ -45,11 +48,13 @@ class Hypothesis:
     pieces: tuple[Piece, ...] = ()
     cost: float = np.inf
     before: float = np.inf
+    loose: int = 0
 
     @property
     def score(self) -> float:
         """The cost, and what the change itself costs: simple changes suit more references."""
-        return self.cost + _PRICE * (len(self.removed) + len(self.pieces) + len(self.inset))
+        changes = len(self.removed) + len(self.pieces) + len(self.inset)
+        return self.cost + _PRICE * changes + _LOOSE * self.loose
 
     @property
     def key(self) -> tuple[object, ...]:
@@ -59,17 +64,22 @@ class Hypothesis:
 
 def applied(hypothesis: Hypothesis, replica: Mesh) -> Mesh:
     """The changed replica, as a soup of its visible faces and the new pieces."""
+    return concatenate([*_standing(hypothesis, replica), *(piece.mesh() for piece in hypothesis.pieces)] or [replica])
+
+
+def _standing(hypothesis: Hypothesis, replica: Mesh) -> list[Mesh]:
+    """What stays of the replica: the parts that keep their place, and those that are drawn in."""
     names = np.array([*replica.label_names, ""], dtype=object)
     labels = names[replica.face_labels] if replica.face_labels is not None else np.full(len(replica.faces), "")
     kept = ~np.isin(labels, hypothesis.removed)
     drawn = np.ones(len(labels), dtype=bool) if hypothesis.inset == (REST,) else np.isin(labels, hypothesis.inset)
     middle = replica.bounds.mean(axis=0)
     factors = np.array([hypothesis.scale[0], 1.0, hypothesis.scale[1]])
-    parts = [Mesh(replica.vertices, replica.faces[kept & ~drawn])]
-    if (kept & drawn).any():
-        parts.append(Mesh((replica.vertices - middle) * factors + middle, replica.faces[kept & drawn]))
-    parts += [piece.mesh() for piece in hypothesis.pieces]
-    return concatenate([part for part in parts if len(part.faces)] or [replica])
+    parts = [
+        Mesh(replica.vertices, replica.faces[kept & ~drawn]),
+        Mesh((replica.vertices - middle) * factors + middle, replica.faces[kept & drawn]),
+    ]
+    return [part for part in parts if len(part.faces)]
 
 
 def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -> list[Hypothesis]:
@@ -222,4 +232,7 @@ def _forms(piece: Piece) -> tuple[Kind, ...]:
 
 def _priced(several: Sequence[Hypothesis], replica: Mesh, costs: Costs) -> list[Hypothesis]:
     prices = costs([applied(each, replica) for each in several])
-    return [replace(each, cost=float(price)) for each, price in zip(several, prices, strict=True)]
+    return [
+        replace(each, cost=float(price), loose=loose(each.pieces, _standing(each, replica)))
+        for each, price in zip(several, prices, strict=True)
+    ]

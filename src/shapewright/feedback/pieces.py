@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import product
 from typing import Literal
 
 import numpy as np
@@ -58,6 +59,18 @@ class Piece:
             return "rails" if self.kind == "slats y" else "spindles"
         several = "s" if any(self.mirrored) else ""
         return _noun(self.kind, self.thin, height / max(width, depth), width >= depth) + several
+
+    @property
+    def copies(self) -> list[Piece]:
+        """A mirrored piece as pieces of their own."""
+        copies = []
+        for x, z in product(*((False, True) if mirrored else (False,) for mirrored in self.mirrored)):
+            low, high = self.low.copy(), self.high.copy()
+            for axis, turned, middle in ((0, x, self.middle[0]), (2, z, self.middle[1])):
+                if turned:
+                    low[axis], high[axis] = 2 * middle - high[axis], 2 * middle - low[axis]
+            copies.append(replace(self, low=low, high=high, mirrored=(False, False)))
+        return copies
 
     def mesh(self) -> Mesh:
         """Its surface, all copies of it."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,6 +21,7 @@ _AGREE = 0.5  # share of the misfits that have to agree
 _FLUSH, _TOUCH = 0.045, 0.07  # of the whole's largest extent: how near sides are that are one, or touch
 _LARGE = 1.3  # of a frame: it is no measure for what is larger
 _ALIKE = 1.35  # greatest ratio of two sizes that are one
+_THIN = 0.4  # of a piece's own size: sides further off are not its own, however near to each other they are
 
 
 @dataclass(frozen=True)
@@ -93,6 +94,7 @@ def _ends(
 ) -> tuple[tuple[str, int], tuple[str, int]] | None:
     """The sides of parts that pieces reach from and to, where these are two different ones."""
     chosen: list[tuple[str, int]] = []
+    near = np.minimum(slack * (_TOUCH / _FLUSH), np.maximum(_THIN * (high - low), 0.2 * slack))
     for end in (low, high):
         best, least = None, np.inf
         for name in shared:
@@ -101,12 +103,33 @@ def _ends(
                     continue
                 off = np.abs(end - np.array([each[name][side, axis] for each in frames]))
                 error = float(np.minimum(off, 2.0 * slack).mean()) - 1e-3 * float(slack.mean()) * (name == WHOLE)
-                if (off < slack * (_TOUCH / _FLUSH)).mean() >= _TOUCHING and error < least:
+                if (off < near).mean() >= _TOUCHING and error < least:
                     best, least = (name, side), error
         if best is None:
             return None
         chosen.append(best)
     return (chosen[0], chosen[1]) if chosen[0] != chosen[1] else None
+
+
+def bounds_as_told(piece: Piece, frame: str, along: Sequence[Along], frames: Frames) -> Floats:
+    """The box (2, 3) of a piece and its copies that a rule makes which tells its place in this way."""
+    low, high = piece.low.copy(), piece.high.copy()
+    for axis, told in enumerate(along):
+        start, end = frames[frame][:, axis]
+        if told.ends:
+            start, end = (frames[name][side, axis] for name, side in told.ends)
+        half = (end - start if told.size == "full" else high[axis] - low[axis]) / 2.0
+        middle = {
+            "middle": (start + end) / 2.0,
+            "low": start + half,
+            "high": end - half,
+            "on": end + half,
+            "under": start - half,
+            "free": (low[axis] + high[axis]) / 2.0,
+        }[told.place]
+        low[axis], high[axis] = middle - half, middle + half
+    told_so = replace(piece, low=low, high=high).copies
+    return np.stack([np.min([copy.low for copy in told_so], axis=0), np.max([copy.high for copy in told_so], axis=0)])
 
 
 def equal_sizes(several: Sequence[Piece], along: Sequence[Along]) -> dict[int, int]:

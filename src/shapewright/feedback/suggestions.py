@@ -8,10 +8,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from shapewright.building import Workers
+from shapewright.feedback.attachment import separate
 from shapewright.feedback.cards import Example, card
 from shapewright.feedback.edit import EditError, can_edit, parameter_line, snippet
 from shapewright.feedback.explanation import Explained
@@ -210,17 +209,8 @@ def _confirmed(
 
 def _falls_apart(trial: Trial, before: Mapping[int, Mesh]) -> bool:
     """Whether most of the new compatible replicas are in more pieces than those before: nothing may float."""
-    more = [_components(trial.replicas[row]) > _components(before[row]) for row in trial.compatible]
-    return float(np.mean(more)) > 0.5
-
-
-def _components(mesh: Mesh) -> int:
-    """Connected pieces, by vertices that coincide."""
-    _, index = np.unique(np.round(mesh.vertices / mesh.extent.max(), 6), axis=0, return_inverse=True)
-    faces = index.reshape(-1)[mesh.faces]
-    links = coo_matrix((np.ones(2 * len(faces)), (faces[:, :2].ravel(), faces[:, 1:].ravel())), shape=(index.size,) * 2)
-    _, component = connected_components(links, directed=False)
-    return len(np.unique(component[faces[:, 0]]))
+    more = [separate(trial.replicas[row]) > separate(before[row]) for row in trial.compatible[:_GLANCES]]
+    return bool(more) and float(np.mean(more)) > 0.5
 
 
 def _value(trial: Trial) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 
 from shapewright.feedback.edit import NewParameter, NewRule
 from shapewright.feedback.pieces import WIDER_FOOT, WIDER_TOP, Kind, Piece
-from shapewright.feedback.relations import NEW, WHOLE, Along, Frames, best_frame, equal_sizes
+from shapewright.feedback.relations import NEW, WHOLE, Along, Frames, best_frame, bounds_as_told, equal_sizes
 
 _LINE = 116  # characters, indented by four
 _CORNERS = (("left", "bottom", "back"), ("right", "top", "front"))
@@ -107,7 +107,7 @@ def addition(
         frame, along = best_frame(several, known)
         lines, asked, used = _piece_lines(several, known, frame, along, free(noun), label or noun, standing)
         for each, piece in zip(known, several, strict=True):
-            each[f"{NEW}{free(noun)}"] = np.stack([piece.low, piece.high])
+            each[f"{NEW}{free(noun)}"] = bounds_as_told(piece, frame, along, each)
         body += lines
         quantities += asked
         imports.append(used)

@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any, Literal, TypeAlias, cast
 
 import numpy as np
@@ -72,7 +73,7 @@ class Sketch:
         return Sketch(self.geometry.intersection(other.geometry)) if isinstance(other, Sketch) else NotImplemented
 
     def translate(self, by: Point) -> Sketch:
-        return Sketch(affinity.translate(self.geometry, *_point("translate", "by", by)))
+        return self._moved((1.0, 1.0), _point("translate", "by", by))
 
     def rotate(self, degrees: float, about: Point = ORIGIN) -> Sketch:
         turn, centre = number("rotate", "degrees", degrees), _point("rotate", "about", about)
@@ -81,14 +82,14 @@ class Sketch:
     def scale(self, factor: float | Point, about: Point = ORIGIN) -> Sketch:
         """Larger or smaller by a positive factor, or by one along x and one along y."""
         factors, centre = _size("scale", factor, "factor"), _point("scale", "about", about)
-        return Sketch(affinity.scale(self.geometry, *factors, origin=centre))
+        return self._moved(factors, (centre[0] * (1.0 - factors[0]), centre[1] * (1.0 - factors[1])))
 
     def mirror(self, axis: Axis, keep: bool = False, about: Point = ORIGIN) -> Sketch:
         """The mirror image along an axis ("x": left and right change places); ``keep`` unites it with the original."""
         if axis not in ("x", "y"):
             raise ValueError(f"mirror: axis={axis!r} must be 'x' or 'y'")
-        factors = (-1.0, 1.0) if axis == "x" else (1.0, -1.0)
-        image = Sketch(affinity.scale(self.geometry, *factors, origin=_point("mirror", "about", about)))
+        x, y = _point("mirror", "about", about)
+        image = self._moved((-1.0, 1.0), (2.0 * x, 0.0)) if axis == "x" else self._moved((1.0, -1.0), (0.0, 2.0 * y))
         return self | image if keep else image
 
     def array(self, count: int, step: Point) -> Sketch:
@@ -128,6 +129,10 @@ class Sketch:
         parts = [part for part in shapely.get_parts(self.geometry) if part.area > 0.0]
         grid = 2.0 ** math.floor(math.log2(np.ptp(self.bounds, axis=0).max()) + _GRID) if parts else None
         return Drawing(cast("shapely.Polygon | shapely.MultiPolygon", shapely.union_all(parts, grid_size=grid)))
+
+    def _moved(self, factors: tuple[float, float], by: tuple[float, float]) -> Sketch:
+        scale, shift = np.array(factors), np.array(by)
+        return Sketch(shapely.transform(self.geometry, lambda points: points * scale + shift))
 
 
 def line(start: Point, end: Point, width: float, round: bool = False) -> Sketch:
@@ -174,11 +179,9 @@ def polygon(*rings: ArrayLike, width: float | None = None) -> Sketch:
 
     width, here and below: only the rim is drawn, so wide, inside the outline.
     """
-    area: Any = shapely.Polygon()
-    for ring in rings:
-        outline = shapely.Polygon(_points("polygon", ring, 3))
-        area = area.symmetric_difference(outline if outline.is_valid else shapely.make_valid(outline))
-    return _rim("polygon", area, width)
+    areas: list[Any] = [shapely.Polygon(_points("polygon", ring, 3)) for ring in rings]
+    sound = [area if area.is_valid else shapely.make_valid(area) for area in areas]
+    return _rim("polygon", reduce(shapely.symmetric_difference, sound), width)
 
 
 def box(size: float | Point, at: Point = ORIGIN, radius: float = 0.0, width: float | None = None) -> Sketch:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Literal, TypeAlias
 
+import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
@@ -34,9 +35,12 @@ class CompactNetwork(nn.Module):
         side = size // 2 ** len(WIDTHS)
         self.features = nn.Sequential(*layers, nn.Flatten(), nn.Linear(channels * side * side, 2 * width), nn.GELU())
         self.heads = Heads(space, 2 * width, width)
+        self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]
 
     def forward(self, images: Tensor) -> list[Tensor]:
-        answers: list[Tensor] = self.heads(self.features(images.flatten(1, 2)))
+        answers: list[Tensor] = self.heads(
+            self.features(images.flatten(1, 2).contiguous(memory_format=torch.channels_last))
+        )
         return answers
 
 

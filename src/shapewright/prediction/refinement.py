@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,8 @@ Measure = Callable[[Sequence[tuple[int, Shape]]], Sequence[Floats | None]]
 """How replicas, each given with the index of its reference, differ from it: vectors (K,) whose sum of absolute values
 is the cost; None where it cannot be told."""
 
+_PROBE = 0.04
+
 
 @dataclass(frozen=True)
 class Round:
@@ -32,7 +35,11 @@ class Round:
     A combination is first built as it is, then once with each scalar moved a little; only from its third round on are
     there ``steps`` along the model of its residuals, and ``strays``, random points around its best. near: only for
     references whose cost is above the goal but at most so many times it, and only while it is. afresh: instead of steps
-    the scalars are each moved a little again, because the model has aged.
+    the scalars are each moved a little again, because the model has aged; by ``probe``, encoded. part: which of
+    the parts of the residuals it goes by; models are kept where that changes, and combinations beyond those that take
+    part are dropped. other: instead of all combinations those take part that differ from the best one in one choice
+    ("choice"), or the best one's choices with all scalars at their defaults ("plain"); the best one itself rests until
+    the last part.
     """
 
     combinations: int
@@ -40,13 +47,17 @@ class Round:
     strays: int = 0
     near: float | None = None
     afresh: bool = False
+    probe: float = _PROBE
+    part: int = 0
+    other: Literal["choice", "plain"] | None = None
 
 
 @dataclass(frozen=True)
 class Budget:
-    """How long to search."""
+    """How long to search. simple: so many starts are not predicted: the defaults, then these but for one choice."""
 
     rounds: tuple[Round, ...]
+    simple: int = 0
 
     def evaluations(self, scalars: int) -> int:
         """Shapes built for each reference, at most, where so many scalars are free."""
@@ -55,24 +66,25 @@ class Budget:
     def within(self, evaluations: float, scalars: int) -> Budget:
         """The first rounds that fit in so many shapes, at least one combination of one."""
         fit = int((np.cumsum(self._spent(scalars)) <= evaluations).sum())
-        return Budget(self.rounds[:fit] or (Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
+        if not fit:
+            return Budget((Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
+        return Budget(self.rounds[:fit], self.simple)
 
     def _spent(self, scalars: int) -> list[int]:
-        each = [1, scalars, *(scalars if r.afresh else r.steps + r.strays for r in self.rounds[2:])]
-        return [r.combinations * points for r, points in zip(self.rounds, each, strict=False)]
+        spent, fresh = [], True
+        for i, r in enumerate(self.rounds):
+            start = i == 0 or r.other is not None
+            spent.append(r.combinations * (1 if start else scalars if fresh or r.afresh else r.steps + r.strays))
+            fresh = start
+        return spent
 
 
 QUICK = Budget(
     (Round(8), Round(3), Round(2, 2, 2), *(Round(1, 2, 3),) * 2, *(Round(1, 2, 4, near=1.4),) * 12),
 )
 THOROUGH = Budget((Round(24), Round(12), *(Round(8, 2, 4),) * 3, *(Round(4, 2, 6),) * 6, *(Round(2, 2, 8),) * 20))
-_AGAIN = (Round(1, afresh=True), Round(1, 3))
-DRAWN = Budget((Round(10), Round(4), Round(4, 3), Round(2, afresh=True), Round(2, 3), *_AGAIN * 5))
-DRAWN_THOROUGH = Budget((Round(30), Round(12), Round(12, 3), *(Round(5, afresh=True), Round(5, 3)) * 3, *_AGAIN * 8))
-"""Drawings are built and measured quickly, but what pictures say changes more from place to place."""
 _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1
-_PROBE = 0.04
 _FLOORS = (20.0, 1000.0)
 _LOCAL = 0.1
 """How far a point may lie from the best one for the linear model to learn from it."""
@@ -101,6 +113,26 @@ class _Search:
     high: Floats
     best: Parameters | None = None
     cost: float = field(default=np.inf)
+    kept: _Arm | None = None
+    done: bool = False
+
+    def leave(self, best: _Arm, starts: Sequence[Floats]) -> None:
+        """Go on from other starts, while the best arm rests."""
+        if starts:
+            self.kept = best
+            self.arms = [_Arm(start, spread=best.spread) for start in starts]
+
+    def focus(self, space: ParameterSpace, part: slice, combinations: int, last: bool) -> None:
+        """Go by another part of the residuals, with the best of the arms."""
+        self.arms = self.arms[:combinations]
+        if last and self.kept:
+            self.arms, self.kept = [self.kept, *self.arms], None
+        for arm in self.arms:
+            arm.reach = _REACH
+            arm.cost = np.inf if arm.residual is None else float(np.abs(arm.residual[part]).sum())
+        self.arms.sort(key=lambda arm: arm.cost)
+        if self.arms[0].residual is not None:
+            self.best, self.cost = space.canonical(space.decode(self.arms[0].centre)), self.arms[0].cost
 
     def settled(self, space: ParameterSpace, new: AbstractSet[str]) -> bool:
         """Whether an earlier search ended at the best there is, and nothing that matters there is new."""
@@ -137,6 +169,7 @@ def refine(
     spread: float = _SPREAD,
     enough: float = -np.inf,
     new: AbstractSet[str] | None = None,
+    parts: Sequence[slice] = (slice(None),),
 ) -> list[Parameters]:
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
@@ -145,32 +178,46 @@ def refine(
     the known ones were searched for; with it, no more is spent where these turn out the best and none is new. goal: the
     cost up to which a reference counts as compatible; without it no round is spent on those that are near. within: the
     least and the greatest encoded scalars of each reference, (N, P), the whole space by default. spread: of the first
-    random points, encoded. enough: a cost at which the search for a reference ends. The cost never rises above that of
-    the prediction. A reference's result does not depend on the other references.
+    random points, encoded. parts: of the residuals, coarse to fine, that rounds may go by; a round that asks for a
+    further one goes by the last. enough: a cost, by the last part, at which the search for a reference ends. The cost
+    never rises above that of the prediction, where there is one part. A reference's result does not depend on the other
+    references.
     """
     count = len(inferred[0])
     widest = budget.rounds[0].combinations
     low, high = within or (np.zeros((count, len(space))), np.ones((count, len(space))))
     searches = []
     for i in range(count):
-        arms = [_Arm(centre, spread=spread) for centre in likeliest(space, [column[i] for column in inferred], widest)]
+        centres = likeliest(space, [column[i] for column in inferred], widest - budget.simple)
+        centres += [space.encode(space.defaults), *_others(space, space.encode(space.defaults))][: budget.simple]
+        arms = [_Arm(centre, spread=spread) for centre in centres]
         if known and (given := known[i]) is not None:
             arms = [*arms[: max(1, widest - 1)], _Arm(space.encode(given), known=True, spread=spread)]
         searches.append(_Search(arms, np.random.default_rng([seed, i]), low[i], high[i]))
     fallback = [space.canonical(space.decode(search.arms[0].centre)) for search in searches]
+    part = parts[0]
     for number, turn in enumerate(budget.rounds):
         asked: list[_Trial] = []
+        before, part = part, parts[min(turn.part, len(parts) - 1)]
         for i, search in enumerate(searches):
             search.arms.sort(key=lambda arm: arm.cost)
-            if new is not None and search.settled(space, new):
+            search.done |= before == parts[-1] and search.cost <= enough
+            if search.done or (new is not None and search.settled(space, new)):
                 continue
-            if search.cost > enough and search.worth(turn.near, goal):
+            best = search.arms[0]
+            if part != before:
+                search.focus(space, part, turn.combinations, part == parts[-1])
+            if turn.other and best.residual is not None:
+                search.leave(
+                    best, _others(space, best.centre) if turn.other == "choice" else [_plain(space, best.centre)]
+                )
+            if search.worth(turn.near, goal):
                 for arm in search.arms[: turn.combinations]:
                     arm.slopes = None if turn.afresh else arm.slopes
-                    asked += [_Trial(i, arm, point) for point in _propose(space, arm, turn, search)]
+                    asked += [_Trial(i, arm, point) for point in _propose(space, arm, turn, search, part)]
         vectors = [space.canonical(space.decode(trial.point)) for trial in asked]
         residuals = _residuals(measure, [trial.reference for trial in asked], crew.build(vectors))
-        _learn(searches, asked, vectors, residuals)
+        _learn(searches, asked, vectors, residuals, part)
         if progress:
             progress(number + 1, len(budget.rounds))
     return [search.best or predicted for search, predicted in zip(searches, fallback, strict=True)]
@@ -196,7 +243,25 @@ def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], co
     return list(unique.values())[:count]
 
 
-def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search) -> Iterator[Floats]:
+def _plain(space: ParameterSpace, centre: Floats) -> Floats:
+    """The same choices, and all scalars at their defaults."""
+    scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
+    return np.where(scalars, space.encode(space.defaults), centre)
+
+
+def _others(space: ParameterSpace, centre: Floats) -> list[Floats]:
+    """The vectors that differ from one in a single choice that matters there."""
+    active = set(space.active(space.decode(centre)))
+    vectors = []
+    for column, parameter in enumerate(space):
+        for k in range(parameter.classes if parameter.name in active else 0):
+            if k != centre[column]:
+                vectors.append(centre.copy())
+                vectors[-1][column] = k
+    return vectors
+
+
+def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search, part: slice) -> Iterator[Floats]:
     """Points inside the limits: the arm's centre, then one for each free scalar, then steps and strays."""
     if arm.residual is None:
         yield arm.centre
@@ -208,14 +273,17 @@ def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search) -> 
     if arm.slopes is None:
         for p in np.flatnonzero(free):
             point = arm.centre.copy()
-            point[p] += _PROBE if point[p] + _PROBE <= search.high[p] else -_PROBE
+            point[p] += turn.probe if point[p] + turn.probe <= search.high[p] else -turn.probe
             yield point
         return
+    slopes, residual = np.ascontiguousarray(arm.slopes[free, part]), arm.residual[part]
     for k in range(turn.steps):
         reach = arm.reach * 0.4**k
-        low = np.where(free, np.clip(search.low - arm.centre, -reach, 0.0), 0.0)
-        high = np.where(free, np.clip(search.high - arm.centre, 0.0, reach), 0.0)
-        yield arm.centre + bounded_step(arm.slopes, arm.residual, low, high, _FLOORS[k % len(_FLOORS)])
+        low = np.clip(search.low - arm.centre, -reach, 0.0)[free]
+        high = np.clip(search.high - arm.centre, 0.0, reach)[free]
+        point = arm.centre.copy()
+        point[free] += bounded_step(slopes, residual, low, high, _FLOORS[k % len(_FLOORS)])
+        yield point
     for _ in range(turn.strays):
         stray = search.rng.standard_normal(len(free)) * arm.spread
         yield np.where(free, np.clip(arm.centre + stray, search.low, search.high), arm.centre)
@@ -235,6 +303,7 @@ def _learn(
     asked: Sequence[_Trial],
     vectors: Sequence[Parameters],
     residuals: Sequence[Floats | None],
+    part: slice,
 ) -> None:
     """Keep the best of each reference, and move each arm to the best point found for it."""
     measured: dict[int, tuple[_Arm, list[tuple[float, Floats, Floats]]]] = {}
@@ -242,7 +311,7 @@ def _learn(
         points = measured.setdefault(id(trial.arm), (trial.arm, []))[1]
         if residual is None:
             continue
-        cost = float(np.abs(residual).sum())
+        cost = float(np.abs(residual[part]).sum())
         points.append((cost, trial.point, residual))
         search = searches[trial.reference]
         if cost < search.cost:

@@ -146,7 +146,7 @@ def _optimiser(
     network: nn.Module, schedule: Schedule, steps: int
 ) -> tuple[torch.optim.Optimizer, torch.optim.lr_scheduler.LRScheduler]:
     kind = torch.optim.Adam if schedule.optimiser == "adam" else torch.optim.AdamW
-    optimiser = kind(network.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay)
+    optimiser = kind(network.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay, fused=True)
     if schedule.optimiser == "adam":
         return optimiser, torch.optim.lr_scheduler.ConstantLR(optimiser, factor=1.0)
     return optimiser, torch.optim.lr_scheduler.OneCycleLR(
