@@ -8,7 +8,7 @@ from shapewright.modelling.solids import chamfered_box, extrude
 
 MATTRESS = 0.45  # its part of the height from below the frame to its own top
 BLANKET = 0.03  # how far a blanket hangs out at the sides
-RAIL = 0.14  # how far side rails rise above the mattress
+RAIL = 0.12  # how far side rails rise above the mattress at least
 SPINDLE, SPACE = 0.02, 0.11  # the thickness of spindles, and the room between them
 ARCH = extrude([(0.1 * i, 0.5 - 0.04 * i * i) for i in range(-5, 6)], 1).rotate(-90, "x")
 PILLOW = chamfered_box((1, 0.4, 0.7), 0.12).scale((1, 1 / 0.4, 1 / 0.7))
@@ -82,7 +82,7 @@ def row(box, axis):
 
 
 @bed.rule("couch")
-def bedding(box, board, blanket, rails):
+def bedding(box, board, blanket, rails, side_rails):
     frame, mattress = box.split("y", ..., MATTRESS * box.height)
     yield frame.tag("frame")
     yield mattress.inset(x=board).tag("mattress")
@@ -91,7 +91,7 @@ def bedding(box, board, blanket, rails):
     if blanket:
         yield box.split("z", 0.3, ...)[1].inset(x=-BLANKET, y=(0.3 * box.height, -0.012)).tag("blanket")
     if rails:
-        yield from (side.extrude(RAIL).tag("side") for side in top.ends("x", board))
+        yield from (side.extrude(side_rails).tag("side") for side in top.ends("x", board))
 
 
 @bed.rule("pillows", when=lambda p: p.pillows > 0)
@@ -133,11 +133,14 @@ def beds(
     head, foot: how far the posts at both ends rise above the mattress. board: the thickness of posts, head and foot.
     arch: how far the head rises between its posts, as a part of its width, and the foot half as far. ends: what head
     and foot are above the mattress. pillows: side by side. blanket: whether there is one. rails: whether the long
-    sides have them. bunk: whether there is a second bed, with so much headroom above the first one's mattress.
+    sides have them, as high as the foot. bunk: whether there is a second bed, with so much headroom above the first
+    one's mattress.
     """
+    side_rails = max(RAIL, foot)
     return bed.derive(
         (width, height, 1),
         clearance=clearance, head=head, foot=foot, board=board, arch=arch, ends=ends, pillows=pillows,
         blanket=blanket, rails=rails, headroom=headroom,
+        side_rails=min(side_rails, 0.8 * headroom) if bunk else side_rails,
         storey=headroom + (1 - clearance) * height if bunk else 0,
     )  # fmt: skip
