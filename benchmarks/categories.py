@@ -16,7 +16,7 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.results import Result
-from shapewright.workspace import cache_folder
+from shapewright.workspace import cache_folder, check_free
 
 ROOT = Path(__file__).resolve().parents[1]
 SETS = {
@@ -55,11 +55,14 @@ def row(category: str, path: Path, collections: list[sw.Collection], settings: s
         for name, collection in zip(names, collections, strict=True)
         for reference in collection
     }
+    folder = out / f"{category}-{path.stem}" if out else None
+    if folder:
+        check_free(folder)
     started = time.perf_counter()
     iteration = sw.fit(procedure, sw.Collection.of(shapes), settings, cache=cache_folder())
     seconds = time.perf_counter() - started
-    if out:
-        iteration.save(out / f"{category}-{path.stem}")
+    if folder:
+        iteration.save(folder)
     scores = iteration.metrics["validation"].values()
     mae = np.mean([score["mae"] for score in scores if "mae" in score])
     f1 = min((score["f1"] for score in scores if "f1" in score), default=np.nan)

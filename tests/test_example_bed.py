@@ -43,8 +43,10 @@ def test_parameters_say_how_large_a_bed_is(version):
         width = values["width"] - (2 * constants["BLANKET"] if values.get("blanket") else 0)
         head = values["head"] + values.get("arch", 0) * width
         foot = values["foot"] + values.get("arch", 0) * width / 2
-        rails = constants["RAIL"] if values.get("rails") else 0
-        top = values["height"] + (values["storey"] if values.get("bunk") else 0) + max(head, foot, rails)
+        rails = max(constants["RAIL"], values["foot"]) if values.get("rails") else 0
+        rails = min(rails, 0.8 * values["headroom"]) if values.get("bunk") else rails
+        storey = values["headroom"] + (1 - values["clearance"]) * values["height"] if values.get("bunk") else 0
+        top = values["height"] + storey + max(head, foot, rails)
         np.testing.assert_allclose(low, [-values["width"] / 2, 0, -0.5], atol=1e-6)
         np.testing.assert_allclose(high, [values["width"] / 2, top, 0.5], atol=1e-6)
 

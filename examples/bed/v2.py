@@ -87,7 +87,7 @@ def no_pillows(box):
 @procedure
 def beds(
     width: Annotated[float, Range(0.4, 1.0)] = 0.7,
-    height: Annotated[float, Range(0.15, 0.4)] = 0.25,
+    height: Annotated[float, Range(0.15, 0.5)] = 0.25,
     clearance: Annotated[float, Range(0.05, 0.6)] = 0.3,
     head: Annotated[float, Range(0.1, 0.45)] = 0.2,
     foot: Annotated[float, Range(0.04, 0.35)] = 0.06,
