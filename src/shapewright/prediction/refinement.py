@@ -35,11 +35,11 @@ class Round:
     A combination is first built as it is, then once with each scalar moved a little; only from its third round on are
     there ``steps`` along the model of its residuals, and ``strays``, random points around its best. near: only for
     references whose cost is above the goal but at most so many times it, and only while it is. afresh: instead of steps
-    the scalars are each moved a little again, because the model has aged; by ``probe``, encoded. part: which of
-    the parts of the residuals it goes by; models are kept where that changes, and combinations beyond those that take
-    part are dropped. other: instead of all combinations those take part that differ from the best one in one choice
-    ("choice"), or these and its own with all scalars at their defaults ("plain"); the best one itself rests until the
-    last part.
+    the scalars are each moved a little again, because the model has aged; by ``probe``, encoded, and to ``both`` sides
+    where the model is to be exact enough for the search to end at the least cost. part: which of the parts of the
+    residuals it goes by; models are kept where that changes, and combinations beyond those that take part are dropped.
+    other: instead of all combinations those take part that differ from the best one in one choice ("choice"), or these
+    and its own with all scalars at their defaults ("plain"); the best one itself rests until the last part.
     """
 
     combinations: int
@@ -48,6 +48,7 @@ class Round:
     near: float | None = None
     afresh: bool = False
     probe: float = _PROBE
+    both: bool = False
     part: int = 0
     other: Literal["choice", "plain"] | None = None
 
@@ -74,7 +75,8 @@ class Budget:
         spent, fresh = [], True
         for i, r in enumerate(self.rounds):
             start = i == 0 or r.other is not None
-            spent.append(r.combinations * (1 if start else scalars if fresh or r.afresh else r.steps + r.strays))
+            probes = scalars * (2 if r.both else 1)
+            spent.append(r.combinations * (1 if start else probes if fresh or r.afresh else r.steps + r.strays))
             fresh = start
         return spent
 
@@ -273,9 +275,12 @@ def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search, par
         return
     if arm.slopes is None:
         for p in np.flatnonzero(free):
-            point = arm.centre.copy()
-            point[p] += turn.probe if point[p] + turn.probe <= search.high[p] else -turn.probe
-            yield point
+            above, below = search.high[p] - arm.centre[p], arm.centre[p] - search.low[p]
+            one = turn.probe if turn.probe <= above else -turn.probe
+            for side in (min(turn.probe, above), -min(turn.probe, below)) if turn.both else (one,):
+                point = arm.centre.copy()
+                point[p] += side
+                yield point
         return
     slopes, residual = np.ascontiguousarray(arm.slopes[free, part]), arm.residual[part]
     for k in range(turn.steps):
@@ -334,11 +339,16 @@ def _learn(
 
 
 def _model(arm: _Arm, points: Sequence[tuple[float, Floats, Floats]]) -> None:
-    """Let the linear model learn from points near the centre, the nearest last."""
+    """Make the linear model from the first points, each along one axis; let it learn from others, the nearest last."""
     assert arm.residual is not None
     if arm.slopes is None:
         arm.slopes = np.zeros((len(arm.centre), len(arm.residual)))
-    steps = [(float(np.abs(point - arm.centre).max()), point, residual) for _, point, residual in points]
-    for length, point, residual in sorted(steps, key=lambda found: -found[0]):
+        if points:
+            steps = np.array([point - arm.centre for _, point, _ in points])
+            changes = np.array([residual - arm.residual for _, _, residual in points])
+            arm.slopes += steps.T @ changes / np.maximum((steps * steps).sum(axis=0), 1e-12)[:, None]
+        return
+    near = [(float(np.abs(point - arm.centre).max()), point, residual) for _, point, residual in points]
+    for length, point, residual in sorted(near, key=lambda found: -found[0]):
         if length <= _LOCAL:
             learn_slope(arm.slopes, point - arm.centre, residual - arm.residual)
