@@ -33,6 +33,7 @@ DRAWN_THOROUGH = Budget(
     (
         Round(22),
         *_from(0, 5, 3, 2, 2, turns=2),
+        *(Round(1, other="plain"), *_from(0, 1, 1, 1, 2, turns=2)),
         *(_CHOICE, *_from(1, 5, 3, 2, turns=2)),
         *(Round(20, other="plain"), *_from(0, 8, 3, 2, 2, turns=2)),
         *(_CHOICE, *_from(1, 5, 3, 2, turns=2)),
