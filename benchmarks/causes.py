@@ -29,7 +29,7 @@ from shapewright.feedback.search import Found, Searcher
 from shapewright.judge import Judge
 from shapewright.modelling.solids import Solid, box, cylinder, sphere
 from shapewright.parameters import Parameters
-from shapewright.prediction.refinement import QUICK
+from shapewright.prediction.budget import QUICK
 from shapewright.results import Result, at_limit
 
 WHOLE = Path(__file__).parent.parent / "examples" / "tables" / "v5.py"

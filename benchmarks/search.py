@@ -20,7 +20,8 @@ import shapewright as sw
 from shapewright.building import Workers
 from shapewright.comparison.aligned import AlignedCost
 from shapewright.judge import Judge
-from shapewright.prediction.refinement import QUICK, Budget, Round, refine
+from shapewright.prediction.budget import QUICK, Budget, Round
+from shapewright.prediction.refinement import refine
 
 LONG = Budget((Round(24), Round(12), *(Round(8, 2, 6),) * 8, *(Round(4, 2, 8),) * 20, *(Round(2, 2, 8),) * 40))
 

@@ -12,12 +12,12 @@ import numpy as np
 from shapewright.building import Build, Limits, Workers, describe_failures
 from shapewright.parameters import Parameters, Scalar
 from shapewright.prediction.augmentation import augmented
+from shapewright.prediction.budget import QUICK, THOROUGH, Budget
 from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset, shapes_of, split
 from shapewright.prediction.devices import pick
 from shapewright.prediction.drawn import DRAWN, DRAWN_THOROUGH
 from shapewright.prediction.evaluation import measure
 from shapewright.prediction.predictor import Predictor
-from shapewright.prediction.refinement import QUICK, THOROUGH, Budget
 from shapewright.prediction.sensitivity import without_effect
 from shapewright.prediction.training import Epoch, Schedule, train_network
 from shapewright.prediction.vgg import VGG19Network, find_weights

@@ -15,7 +15,8 @@ from shapewright.feedback.ranges import End, inside, limits, pressed, widened
 from shapewright.feedback.ranges import beyond as wishes_of
 from shapewright.judge import Judge
 from shapewright.parameters import Integer, Parameters, ParameterSpace, Scalar
-from shapewright.prediction.refinement import Budget, Measure, Round, refine
+from shapewright.prediction.budget import Budget, Round
+from shapewright.prediction.refinement import Measure, refine
 from shapewright.shapes import Floats, Mesh, Shape
 from shapewright.threads import in_threads
 

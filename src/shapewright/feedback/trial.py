@@ -15,7 +15,8 @@ from shapewright.building import Limits, Workers
 from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
-from shapewright.prediction.refinement import Budget, Round, refine
+from shapewright.prediction.budget import Budget, Round
+from shapewright.prediction.refinement import refine
 from shapewright.procedure import Procedure, load_procedure
 from shapewright.shapes import Mesh
 

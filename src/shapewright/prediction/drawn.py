@@ -7,7 +7,7 @@ for the predicted choices to be trusted, so others are tried, and the simple for
 
 from __future__ import annotations
 
-from shapewright.prediction.refinement import Budget, Round
+from shapewright.prediction.budget import Budget, Round
 
 _FINE = 0.01
 

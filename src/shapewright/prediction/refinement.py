@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
+from shapewright.prediction.budget import QUICK, Budget, Round
 from shapewright.prediction.descent import bounded_step, learn_slope
 from shapewright.shapes import Shape
 
@@ -25,66 +25,6 @@ Measure = Callable[[Sequence[tuple[int, Shape]]], Sequence[Floats | None]]
 """How replicas, each given with the index of its reference, differ from it: vectors (K,) whose sum of absolute values
 is the cost; None where it cannot be told."""
 
-_PROBE = 0.04
-
-
-@dataclass(frozen=True)
-class Round:
-    """One round of the search: how many combinations of choices take part, and what is tried for each.
-
-    A combination is first built as it is, then once with each scalar moved a little; only from its third round on are
-    there ``steps`` along the model of its residuals, and ``strays``, random points around its best. near: only for
-    references whose cost is above the goal but at most so many times it, and only while it is. afresh: instead of steps
-    the scalars are each moved a little again, because the model has aged; by ``probe``, encoded, and to ``both`` sides
-    where the model is to be exact enough for the search to end at the least cost. part: which of the parts of the
-    residuals it goes by; models are kept where that changes, and combinations beyond those that take part are dropped.
-    other: instead of all combinations those take part that differ from the best one in one choice ("choice"), or these
-    and its own with all scalars at their defaults ("plain"); the best one itself rests until the last part.
-    """
-
-    combinations: int
-    steps: int = 2
-    strays: int = 0
-    near: float | None = None
-    afresh: bool = False
-    probe: float = _PROBE
-    both: bool = False
-    part: int = 0
-    other: Literal["choice", "plain"] | None = None
-
-
-@dataclass(frozen=True)
-class Budget:
-    """How long to search. simple: so many starts are not predicted: the defaults, then these but for one choice."""
-
-    rounds: tuple[Round, ...]
-    simple: int = 0
-
-    def evaluations(self, scalars: int) -> int:
-        """Shapes built for each reference, at most, where so many scalars are free."""
-        return int(np.sum(self._spent(scalars)))
-
-    def within(self, evaluations: float, scalars: int) -> Budget:
-        """The first rounds that fit in so many shapes, at least one combination of one."""
-        fit = int((np.cumsum(self._spent(scalars)) <= evaluations).sum())
-        if not fit:
-            return Budget((Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
-        return Budget(self.rounds[:fit], self.simple)
-
-    def _spent(self, scalars: int) -> list[int]:
-        spent, fresh = [], True
-        for i, r in enumerate(self.rounds):
-            start = i == 0 or r.other is not None
-            probes = scalars * (2 if r.both else 1)
-            spent.append(r.combinations * (1 if start else probes if fresh or r.afresh else r.steps + r.strays))
-            fresh = start
-        return spent
-
-
-QUICK = Budget(
-    (Round(8), Round(3), Round(2, 2, 2), *(Round(1, 2, 3),) * 2, *(Round(1, 2, 4, near=1.4),) * 12),
-)
-THOROUGH = Budget((Round(24), Round(12), *(Round(8, 2, 4),) * 3, *(Round(4, 2, 6),) * 6, *(Round(2, 2, 8),) * 20))
 _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1
 _FLOORS = (20.0, 1000.0)
