@@ -3,7 +3,7 @@ import numpy as np
 from shapewright.feedback.attachment import loose, separate
 from shapewright.feedback.pieces import Piece
 from shapewright.modelling.solids import box
-from shapewright.shapes import concatenate
+from shapewright.shapes import Mesh, concatenate
 
 TOP = box((1, 0.05, 0.6), at=(0, 0.5, 0)).mesh()
 COLUMN = Piece("cylinder", np.array([-0.05, -0.2, -0.05]), np.array([0.05, 0.47, 0.05]))
@@ -34,3 +34,16 @@ def test_narrow_gaps_do_not_separate():
     assert separate(TOP) == 1
     assert separate(apart(0.005)) == 1
     assert separate(apart(0.1)) == 2
+
+
+def test_a_copy_that_touches_attaches_its_original_whichever_comes_first():
+    leg = Piece("box", np.array([0.8, 0, 0]), np.array([1.0, 0.4, 0.1]), mirrored=(True, False))
+    arm = Piece("box", np.array([-1.5, 0, 0]), np.array([-1.0, 0.1, 0.1]))
+    assert loose([leg, arm], []) == loose([arm, leg], []) == 0
+    assert loose([leg], [box((0.2, 0.1, 0.1), at=(-0.9, -0.05, 0.05)).mesh()]) == 0
+
+
+def test_a_component_without_area_is_no_part():
+    line = Mesh(np.array([[3.0, 0, 0], [4, 0, 0], [5, 0, 0]]), np.array([[0, 1, 2]]))
+    assert separate(concatenate([TOP, line])) == 1
+    assert loose([COLUMN], [line]) == 0

@@ -149,10 +149,12 @@ def test_variants_find_a_choice_that_the_prediction_excludes_and_plain_starts_wh
 def test_the_best_rests_while_others_are_tried_by_a_coarser_part():
     def measure(pairs):
         """Coarsely any second part is wrong; finely the bare post is, and others are right at a width of 0.4."""
+        tried.update(len(shape.vertices) for _, shape in pairs)
         coarse = [0.0 if len(shape.vertices) == 8 else 10.0 for _, shape in pairs]
         widths = [np.ptp(shape.vertices[shape.vertices[:, 1] < 0][:, 0]) for _, shape in pairs]
         return [np.array([0.0 if c else 5.0, w - 0.2, c]) for c, w in zip(coarse, widths, strict=True)]
 
+    tried: set[int] = set()
     fine, coarse = slice(0, 2), slice(2, 3)
     start = inferred((0.5, 0.2, SURE, 0.5))
     first = (*(Round(1, part=1),) * 4, Round(3, other="choice"), Round(3), Round(3))
@@ -161,8 +163,9 @@ def test_the_best_rests_while_others_are_tried_by_a_coarser_part():
             refine(post.space, start, crew, measure, Budget(rounds), parts=(coarse, fine))[0]
             for rounds in (first[:4], first, (*first, Round(1, part=1)))
         ]
-    assert [values["form"] for values in found] == ["square", "bare", "square"]
-    assert found[0]["width"] == pytest.approx(0.4) == found[2]["width"]
+    assert [values["form"] for values in found] == ["square"] * 3  # where the rounds end before the last part as well
+    assert [values["width"] for values in found] == [pytest.approx(0.4)] * 3
+    assert 8 in tried  # the coarser part had preferred a bare post
 
 
 def test_only_what_is_nearly_compatible_is_explored_further():
@@ -199,3 +202,19 @@ def test_where_an_earlier_search_ended_at_the_best_nothing_more_is_spent():
             counts.append(len(measured))
             assert found["height"] == pytest.approx(1.0, abs=0.05)
     assert counts[0] == counts[2] > counts[1] == counts[3] == 3
+
+
+def test_a_search_that_is_cut_short_keeps_the_best_that_rested():
+    budget = Budget((Round(2), Round(1), Round(1, 2), Round(2, other="choice"), Round(2), Round(2, 2, part=1)))
+    cost = AlignedCost(sw.light_field.descriptor(post(height=1.4, width=0.3, form="square", cap=0.5)))
+    start = inferred((0.65, 0.25, SURE, 0.5))
+    parts = (slice(0, 470), slice(470, 940))
+
+    def measure(pairs):
+        return [np.tile(cost.residual(shape), 2) for _, shape in pairs]
+
+    with Workers(post, 1) as crew:
+        cuts = [budget.within(evaluations, 3) for evaluations in (5, 7, 9, 15, 100)]
+        found = [refine(post.space, start, crew, measure, cut, parts=parts)[0] for cut in cuts]
+    assert [len(cut.rounds) for cut in cuts] == [2, 3, 4, 5, 6]
+    assert [values["form"] for values in found] == ["square"] * 5

@@ -124,6 +124,8 @@ def learn_more(
     if not fresh:
         return lesson
     added = _draw(procedure, fresh, lesson.predictor.cameras, settings, lesson.training.kind)
+    if settings.augment:
+        added = augmented(added, settings.seed + len(lesson.training), settings.workers)
     training = join([lesson.training, added])
     parts = [training, lesson.validation, lesson.held_out]
     schedule = _schedule(settings, lesson.predictor)

@@ -28,8 +28,8 @@ class Settings:
     procedure fits it best.
 
     refine: how long to search for better parameters from the predicted ones, by the judge's measure; refine_seconds:
-    what building shapes for that may cost for each reference, on one core (ten times as much when thorough). Procedures
-    that take less than 10 ms a shape never reach it.
+    what building shapes for that may cost for each reference, on one core (ten times as much when thorough). Only slow
+    procedures reach it, from about 40 ms a mesh and 4 ms a drawing; how far they are searched depends on the machine.
 
     threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18); fidelity: of a
     drawing instead the least visual information fidelity (VIF), above which the paper counts from 0.05. metric: decides
@@ -65,7 +65,7 @@ class Settings:
     round_samples: int = 1000
     facing: Literal["given", "found"] = "given"
     refine: Literal["off", "quick", "thorough"] = "quick"
-    refine_seconds: float = 2.0
+    refine_seconds: float = 5.0
     threshold: float = 0.18
     metric: tuple[float, float, float, float] | None = None
     fidelity: float = 0.05

@@ -27,9 +27,9 @@ def loose(pieces: Sequence[Piece], standing: Sequence[Mesh]) -> int:
     if not pieces:
         return 0
     reach = _REACH * max(float(np.ptp([[p.low, p.high] for p in pieces], axis=(0, 1)).max()), *_extents(standing))
-    points = [sample(mesh, _POINTS).points for mesh in standing if mesh.extent.max() > 0.0]
+    points = [sample(mesh, _POINTS).points for mesh in standing if _area(mesh) > 0.0]
     held = {i for i, piece in enumerate(pieces) if any(_touches(piece, some, reach) for some in points)}
-    if not standing:
+    if not points:
         held = {0}
     todo = list(held)
     while todo:
@@ -44,7 +44,7 @@ def separate(mesh: Mesh) -> int:
     """Into how many pieces a shape falls, where narrow gaps do not count."""
     mesh = mesh.normalised()
     parts = _components(mesh)
-    if len(parts) == 1:
+    if len(parts) <= 1:
         return 1
     surfaces = [Surface.roughly(part, 300) for part in parts]
     first, second = np.triu_indices(len(parts), 1)
@@ -59,7 +59,7 @@ def _components(mesh: Mesh) -> list[Mesh]:
     _, component = _count(len(index), faces[:, :2].ravel(), faces[:, 1:].ravel())
     of_face = component[faces[:, 0]]
     parts = [Mesh(mesh.vertices, mesh.faces[of_face == number]) for number in np.unique(of_face)]
-    return [part for part in parts if np.ptp(part.triangles.reshape(-1, 3), axis=0).max() > 0.0]
+    return [part for part in parts if _area(part) > 0.0]
 
 
 def _count(nodes: int, first: Ints, second: Ints) -> tuple[int, Ints]:
@@ -73,16 +73,23 @@ def _apart(a: Mesh, on_a: Surface, b: Mesh, on_b: Surface) -> float:
     return min(float(on_b.distance(a.vertices[corners[0]]).min()), float(on_a.distance(b.vertices[corners[1]]).min()))
 
 
+def _area(mesh: Mesh) -> float:
+    a, b, c = mesh.triangles.transpose(1, 0, 2)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+
+
 def _extents(standing: Sequence[Mesh]) -> list[float]:
     return [0.0, *(float(mesh.extent.max()) for mesh in standing)]
 
 
 def _touches(piece: Piece, points: Floats, reach: float) -> bool:
-    aside = np.maximum(np.maximum(piece.low - points, points - piece.high), 0.0)
-    return bool((np.square(aside).sum(axis=1) < reach**2).any())
+    """Whether one of the piece's copies is so near to one of the points."""
+    aside = [np.maximum(np.maximum(copy.low - points, points - copy.high), 0.0) for copy in piece.copies]
+    return bool((np.square(aside).sum(axis=2) < reach**2).any())
 
 
 def _gap(a: Piece, b: Piece) -> float:
     """Between the boxes of two pieces, the nearest of their copies."""
-    apart = [np.maximum(np.maximum(a.low - copy.high, copy.low - a.high), 0.0) for copy in b.copies]
+    pairs = [(one, other) for one in a.copies for other in b.copies]
+    apart = [np.maximum(np.maximum(one.low - other.high, other.low - one.high), 0.0) for one, other in pairs]
     return float(np.linalg.norm(apart, axis=1).min())

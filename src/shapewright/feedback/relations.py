@@ -144,7 +144,8 @@ def bounds_as_told(piece: Piece, frame: str, along: Sequence[Along], frames: Fra
             "free": (low[axis] + high[axis]) / 2.0,
         }[told.place]
         low[axis], high[axis] = middle - half, middle + half
-    told_so = replace(piece, low=low, high=high).copies
+    x, z = frames[frame].mean(axis=0)[[0, 2]]  # copies are mirrored about the frame
+    told_so = replace(piece, low=low, high=high, middle=(float(x), float(z))).copies
     return np.stack([np.min([copy.low for copy in told_so], axis=0), np.max([copy.high for copy in told_so], axis=0)])
 
 

@@ -146,7 +146,8 @@ def _glanced(
     """The proposals that bring most to a few of the misfits they are for, best first."""
     scores: list[tuple[float, int, Proposal]] = []
     spent, each = 0, GLANCE.evaluations(_scalars(procedure.space))
-    worthy = [idea for idea in ideas if len(idea.starts) > _FEW * len(misfits)]
+    # A part is only ever proposed for misfits that were studied.
+    worthy = [idea for idea in ideas if len(idea.starts) > _FEW * min(len(misfits), _STUDIED)]
     for number, idea in enumerate(worthy[:_GLANCED]):
         members = [misfit for misfit in misfits if misfit.row in idea.starts]
         some = [members[i] for i in sorted({int(i) for i in np.linspace(0, len(members) - 1, _GLANCES)})]
@@ -160,7 +161,7 @@ def _glanced(
                 trial = tried(new, {m.row: idea.start(m) for m in some}, judge, [GLANCE], judge.settings.seed)
         except (EditError, ProcedureError):
             continue
-        share = float(np.mean([_nearness(trial, m.row) for m in some])) if some else 0.0
+        share = float(np.mean([_nearness(trial, m.row) for m in some]))
         scores.append((-share * len(members), number, idea))
     return [idea for _, _, idea in sorted(scores, key=lambda score: score[:2])]
 

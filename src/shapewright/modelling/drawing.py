@@ -16,7 +16,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import reduce
 from typing import Any, Literal, TypeAlias, cast
 
 import numpy as np
@@ -179,9 +178,11 @@ def polygon(*rings: ArrayLike, width: float | None = None) -> Sketch:
 
     width, here and below: only the rim is drawn, so wide, inside the outline.
     """
-    areas: list[Any] = [shapely.Polygon(_points("polygon", ring, 3)) for ring in rings]
-    sound = [area if area.is_valid else shapely.make_valid(area) for area in areas]
-    return _rim("polygon", reduce(shapely.symmetric_difference, sound), width)
+    area: Any = shapely.Polygon()
+    for ring in rings:
+        inside: Any = shapely.Polygon(_points("polygon", ring, 3))
+        area = shapely.symmetric_difference(area, inside if inside.is_valid else shapely.make_valid(inside))
+    return _rim("polygon", area, width)
 
 
 def box(size: float | Point, at: Point = ORIGIN, radius: float = 0.0, width: float | None = None) -> Sketch:

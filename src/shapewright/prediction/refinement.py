@@ -163,6 +163,9 @@ def refine(
         _learn(searches, asked, vectors, residuals, part)
         if progress:
             progress(number + 1, len(budget.rounds))
+    for search in searches:
+        if search.kept:  # the rounds were cut short while the best one rested
+            search.focus(space, parts[-1], len(search.arms), last=True)
     return [search.best or predicted for search, predicted in zip(searches, fallback, strict=True)]
 
 

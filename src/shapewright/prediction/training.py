@@ -145,8 +145,9 @@ def _epochs_of_cameras(schedule: Schedule) -> int:
 def _optimiser(
     network: nn.Module, schedule: Schedule, steps: int
 ) -> tuple[torch.optim.Optimizer, torch.optim.lr_scheduler.LRScheduler]:
+    fused = next(network.parameters()).device.type != "mps"  # not in every torch that we run with
     kind = torch.optim.Adam if schedule.optimiser == "adam" else torch.optim.AdamW
-    optimiser = kind(network.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay, fused=True)
+    optimiser = kind(network.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay, fused=fused)
     if schedule.optimiser == "adam":
         return optimiser, torch.optim.lr_scheduler.ConstantLR(optimiser, factor=1.0)
     return optimiser, torch.optim.lr_scheduler.OneCycleLR(
