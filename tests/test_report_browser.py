@@ -278,7 +278,7 @@ def test_marking_a_pair_gives_the_command(browser: Browser, report: Path) -> Non
     browser.click("#pair-0")
     assert browser.text("#viewer-command") == ""
     browser.click("[data-mark=different]")
-    assert browser.text("#viewer-command") == f"shapewright mark {report.parent} fir different"
+    assert browser.text("#viewer-command") == f"shapewright mark {report.parent} -- fir different"
     browser.press("ArrowRight")
     assert browser.text("#viewer-command") == ""
     browser.ask("show(pairs.length - 1)")
