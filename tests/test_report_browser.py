@@ -283,7 +283,7 @@ def test_marking_a_pair_gives_the_command(browser: Browser, report: Path) -> Non
     assert browser.text("#viewer-command") == ""
     browser.ask("show(pairs.length - 1)")
     browser.click("[data-mark=same]")
-    assert shlex.split(browser.ask("viewer.querySelector('code').textContent"))[3] == EVIL
+    assert shlex.split(browser.ask("viewer.querySelector('code').textContent"))[4] == EVIL
     browser.press("Escape")
     browser.click("#pair-4")
     assert browser.shown("#viewer-marks") == 0
