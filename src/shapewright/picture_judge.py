@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 
@@ -44,6 +44,7 @@ class PictureJudge:
     references: Collection
     outlines: tuple[outline.Outline | None, ...]
     settings: Settings
+    _targets: dict[int, Floats] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, references: Collection, settings: Settings, cache: Path | None = None) -> PictureJudge:
@@ -79,12 +80,17 @@ class PictureJudge:
         Blurred pictures change evenly while an edge moves by as much as the blur is wide, sharp ones within a pixel.
         None where one cannot be seen.
         """
-        targets = {i: _blurred(self.references.references[i].shape) for i in {i for i, _ in pairs}}
 
         def residual(asked: tuple[int, Shape]) -> Floats | None:
-            return _blurred(asked[1]) - targets[asked[0]] if self._pair(*asked) else None
+            return _blurred(asked[1]) - self._target(asked[0]) if self._pair(*asked) else None
 
         return in_threads(residual, pairs, self.settings.workers)
+
+    def _target(self, row: int) -> Floats:
+        """One reference at every one of the SCALES, made once."""
+        if row not in self._targets:
+            self._targets[row] = _blurred(self.references.references[row].shape)
+        return self._targets[row]
 
     @property
     def search_parts(self) -> tuple[slice, ...]:
