@@ -15,7 +15,8 @@ from shapewright.prediction.heads import Heads
 from shapewright.prediction.vgg import VGG19Network
 
 NetworkName: TypeAlias = Literal["compact", "vgg19"]
-WIDTHS = (32, 64, 96, 128)
+LAYERS = ((4, 48), (2, 96), (2, 128))
+"""Stride and channels of each convolution: the first takes patches side by side, the others overlap by a pixel."""
 _LOG_SPREAD = (-9.0, 2.0)
 
 
@@ -28,19 +29,20 @@ class CompactNetwork(nn.Module):
     def __init__(self, space: ParameterSpace, views: int, size: int = 64, width: int = 128) -> None:
         super().__init__()
         layers: list[nn.Module] = []
-        channels = 2 * views
-        for out in WIDTHS:
-            layers += [nn.Conv2d(channels, out, 3, stride=2, padding=1, bias=False), nn.BatchNorm2d(out), nn.GELU()]
-            channels = out
-        side = size // 2 ** len(WIDTHS)
-        self.features = nn.Sequential(*layers, nn.Flatten(), nn.Linear(channels * side * side, 2 * width), nn.GELU())
+        channels, side = 2 * views, size
+        for stride, out in LAYERS:
+            kernel, margin = (3, 1) if layers else (stride, 0)
+            layers += [nn.Conv2d(channels, out, kernel, stride, margin, bias=False), nn.BatchNorm2d(out), nn.GELU()]
+            channels, side = out, side // stride
+        self.features = nn.Sequential(*layers)
+        self.summary = nn.Sequential(nn.Linear(channels * side * side, 2 * width), nn.GELU())
         self.heads = Heads(space, 2 * width, width)
         self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]
 
     def forward(self, images: Tensor) -> list[Tensor]:
-        answers: list[Tensor] = self.heads(
-            self.features(images.flatten(1, 2).contiguous(memory_format=torch.channels_last))
-        )
+        features = self.features(images.flatten(1, 2).contiguous(memory_format=torch.channels_last))
+        with torch.autocast(images.device.type, enabled=False):  # these weights take longer to convert than to multiply
+            answers: list[Tensor] = self.heads(self.summary(features.permute(0, 2, 3, 1).flatten(1).float()))
         return answers
 
 
