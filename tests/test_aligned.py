@@ -31,3 +31,11 @@ def test_the_cost_bounds_the_raw_distance_from_above_and_orders_shapes_as_it_doe
 def test_what_no_view_shows_costs_without_end():
     needle = Mesh(np.array([[0.0, 0, 0], [1e-9, 1, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
     assert AlignedCost(table(0.7))(needle) == pytest.approx(np.inf)
+
+
+def test_depth_tells_what_silhouettes_cannot():
+    case = box((1, 1, 0.4)) - box((0.9, 0.9, 0.4), at=(0, 0, 0.05))
+    shelf, other = ((case | box((0.9, 0.04, 0.35), at=(0, y, 0))).mesh() for y in (0.0, 0.3))
+    cost, residual = AlignedCost(shelf), AlignedCost(shelf).residual(other)
+    assert np.abs(residual).sum() > 2.0 * np.abs(residual[:470]).sum()
+    assert cost(other) < 300.0 and len(residual) == len(cost.residual(shelf)) and not cost.residual(shelf).any()

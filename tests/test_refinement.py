@@ -96,6 +96,20 @@ def test_refinement_never_makes_it_worse():
             assert after <= before
 
 
+def test_of_forms_that_look_alike_the_likelier_is_chosen():
+    likely = np.array([0.3, 0.7, 0.0])
+    start = inferred((0.5, 0.5, likely, 0.5), (0.5, 0.5, likely, 0.5))
+
+    def measure(pairs):  # the unlikely form is a little better for the first reference, and clearly for the second
+        return [np.array([100.0, (2.0, 50.0)[i] if len(mesh.faces) > 40 else 0.0]) for i, mesh in pairs]
+
+    with Workers(post, 1) as crew:
+        careful = refine(post.space, start, crew, measure, QUICK, doubt=5.0)
+        careless = refine(post.space, start, crew, measure, QUICK)
+    assert [found["form"] for found in careful] == ["round", "square"]
+    assert [found["form"] for found in careless] == ["square", "square"]
+
+
 def test_where_nothing_can_be_built_the_prediction_stays():
     start = inferred((0.5, 0.95, [0.0, 0.0, 1.0], 0.5))
     with Workers(post, 1) as crew:

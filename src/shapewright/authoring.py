@@ -205,6 +205,7 @@ def _replicate(
         new=new,
         enough=judge.search_enough,
         parts=judge.search_parts,
+        doubt=judge.search_doubt,
     )
     vectors = found.parameters(predicted)
     for i, values in zip(rows, refined, strict=True):

@@ -99,6 +99,7 @@ def _refined(procedure: Procedure, crew: Workers, lesson: Lesson, settings: Sett
         progress=stages.step,
         enough=judge.search_enough,
         parts=judge.search_parts,
+        doubt=judge.search_doubt,
     )
     encoded = np.array([procedure.space.encode(values) for values in found], dtype=np.float32)
     answers = [

@@ -25,6 +25,7 @@ from shapewright.settings import Settings
 from shapewright.shapes import Mesh, Shape
 from shapewright.threads import in_threads
 
+_DOUBT = 5.0
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -104,6 +105,11 @@ class Judge:
     def search_enough(self) -> float:
         """A cost at which a search may end: there is none."""
         return -np.inf
+
+    @property
+    def search_doubt(self) -> float:
+        """What it costs a search to choose something unlikely: far less than a difference that can be seen."""
+        return _DOUBT
 
     def _target(self, row: int, field: int) -> AlignedCost | None:
         """The cost against one reference in one light field, made once; None where it cannot be compared."""

@@ -104,6 +104,11 @@ class PictureJudge:
         return ENOUGH * UNIT
 
     @property
+    def search_doubt(self) -> float:
+        """What it costs a search to choose something unlikely: nothing, forms are told apart by their pictures."""
+        return 0.0
+
+    @property
     def goal(self) -> None:
         """The residuals say nothing of which replica is surely compatible."""
         return None

@@ -9,43 +9,60 @@ from shapewright.comparison.coefficients import coefficients, levels, quantise
 from shapewright.comparison.descriptor import Descriptor
 from shapewright.comparison.dodecahedra import VIEWS, directions
 from shapewright.comparison.least_cost import WEIGHTS, weighted
+from shapewright.rendering.cameras import THREE_VIEWS, Camera
+from shapewright.rendering.raster import render
 from shapewright.rendering.silhouettes_raster import SIZE, draw, view_axes
 from shapewright.shapes import Mesh
 
 _AXES = [view_axes(views) for views in directions()]
+_DEPTH = 3000.0
+"""What depth counts where it differs altogether: little beside the light field, unless that differs little."""
+_DEPTH_VIEWS = (*THREE_VIEWS, Camera(215.0, -25.0))
 Floats = NDArray[np.float64]
 
 
 class AlignedCost:
-    """The raw distance between one reference and its replicas, in one light field, without trying rotations.
+    """How a replica differs from one reference in one light field, without trying rotations; and in depth.
 
-    It is an upper bound of the light field distance, at a tenth of a descriptor's time; for shapes that are aligned
-    the least over the fields is hardly above it. field: 0 to 9, each sees a shape from ten directions.
+    The light field's part is an upper bound of the raw distance, at a tenth of a descriptor's time; for shapes that
+    are aligned the least over the fields is hardly above it. Depth tells what silhouettes cannot, such as the boards in
+    a closed shelf. field: 0 to 9, each sees a shape from ten directions.
     """
 
     def __init__(self, reference: Mesh, field: int = 0) -> None:
         self._axes = _AXES[field]
-        values = self._coefficients(reference)
-        self._whole, self._exact = weighted(quantise(values), 4).astype(np.int64), levels(values) * WEIGHTS
+        normal = reference.normalised()
+        self._light, self._depths = self._coefficients(normal), _depths(normal)
 
     def __call__(self, replica: Mesh) -> float:
-        """The cost of a replica, infinite for one that no view shows."""
-        values = self._coefficients(replica)
-        return float(np.abs(weighted(quantise(values), 4) - self._whole).sum()) if values.any() else np.inf
+        """The raw distance, infinite for a replica that no view shows."""
+        values = self._coefficients(replica.normalised())
+        apart = weighted(quantise(values), 4).astype(np.int64) - weighted(quantise(self._light), 4)
+        return float(np.abs(apart).sum()) if values.any() else np.inf
 
     def residual(self, replica: Mesh) -> Floats | None:
-        """(470,): the weighted differences of which the cost is the sum of absolute values, before quantisation.
+        """(1494,): what a search makes small, the sum of absolute values: weighted differences, before quantisation.
 
-        They vary smoothly with the replica's parameters. None for a replica that no view shows.
+        They vary smoothly with the replica's parameters: 470 of the light field, then those of depth. None for a
+        replica that no view shows.
         """
-        values = self._coefficients(replica)
-        return np.asarray(levels(values) * WEIGHTS - self._exact).ravel() if values.any() else None
+        normal = replica.normalised()
+        values = self._coefficients(normal)
+        if not values.any():
+            return None
+        light = (levels(values) - levels(self._light)) * WEIGHTS
+        return np.concatenate([light.ravel(), (_depths(normal) - self._depths) * (_DEPTH / len(self._depths))])
 
-    def _coefficients(self, mesh: Mesh) -> Floats:
-        vertices = mesh.normalisation().apply(mesh.vertices)
+    def _coefficients(self, normal: Mesh) -> Floats:
         images = np.empty((VIEWS, SIZE, SIZE), dtype=np.uint8)
-        draw(vertices, mesh.faces, self._axes, images)
+        draw(normal.vertices, normal.faces, self._axes, images)
         return coefficients(images)
+
+
+def _depths(normal: Mesh) -> Floats:
+    """(1024,): small pictures of a normalised shape's depth, 0 to 1."""
+    pictures = render([normal], _DEPTH_VIEWS, size=16, supersample=4, threads=1)
+    return pictures[0, :, 1].ravel() / 255.0
 
 
 def nearest_field(a: Descriptor, b: Descriptor) -> int:

@@ -28,15 +28,20 @@ is the cost; None where it cannot be told."""
 _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1
 _FLOORS = (20.0, 1000.0)
+_UNLIKELY = 1e-4
 _LOCAL = 0.1
 """How far a point may lie from the best one for the linear model to learn from it."""
 
 
 @dataclass(eq=False)
 class _Arm:
-    """One combination of discrete values: the best scalars found for it, and a linear model around them."""
+    """One combination of discrete values: the best scalars found for it, and a linear model around them.
+
+    cost: with the doubt, what it costs that the combination is unlikely.
+    """
 
     centre: Floats
+    doubt: float = 0.0
     known: bool = False
     cost: float = np.inf
     residual: Floats | None = None
@@ -58,11 +63,10 @@ class _Search:
     kept: _Arm | None = None
     done: bool = False
 
-    def leave(self, best: _Arm, starts: Sequence[Floats]) -> None:
+    def leave(self, best: _Arm, starts: Sequence[_Arm]) -> None:
         """Go on from other starts, while the best arm rests."""
         if starts:
-            self.kept = best
-            self.arms = [_Arm(start, spread=best.spread) for start in starts]
+            self.kept, self.arms = best, list(starts)
 
     def focus(self, space: ParameterSpace, part: slice, combinations: int, last: bool) -> None:
         """Go by another part of the residuals, with the best of the arms."""
@@ -71,7 +75,7 @@ class _Search:
             self.arms, self.kept = [self.kept, *self.arms], None
         for arm in self.arms:
             arm.reach = _REACH
-            arm.cost = np.inf if arm.residual is None else float(np.abs(arm.residual[part]).sum())
+            arm.cost = np.inf if arm.residual is None else float(np.abs(arm.residual[part]).sum()) + arm.doubt
         self.arms.sort(key=lambda arm: arm.cost)
         if self.arms[0].residual is not None:
             self.best, self.cost = space.canonical(space.decode(self.arms[0].centre)), self.arms[0].cost
@@ -112,6 +116,7 @@ def refine(
     enough: float = -np.inf,
     new: AbstractSet[str] | None = None,
     parts: Sequence[slice] = (slice(None),),
+    doubt: float = 0.0,
 ) -> list[Parameters]:
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
@@ -121,20 +126,26 @@ def refine(
     cost up to which a reference counts as compatible; without it no round is spent on those that are near. within: the
     least and the greatest encoded scalars of each reference, (N, P), the whole space by default. spread: of the first
     random points, encoded. parts: of the residuals, coarse to fine, that rounds may go by; a round that asks for a
-    further one goes by the last. enough: a cost, by the last part, at which the search for a reference ends. The cost
-    never rises above that of the prediction, where there is one part. A reference's result does not depend on the other
-    references.
+    further one goes by the last. enough: a cost, by the last part, at which the search for a reference ends. doubt: how
+    much the cost of a choice rises with minus the logarithm of the probability inferred for it: of those that look
+    alike the likelier wins. The cost never rises above that of the prediction, where there is one part. A reference's
+    result does not depend on the other references.
     """
     count = len(inferred[0])
     widest = budget.rounds[0].combinations
     low, high = within or (np.zeros((count, len(space))), np.ones((count, len(space))))
     searches = []
+
+    def arm(i: int, centre: Floats, known: bool = False) -> _Arm:
+        unlikely = doubt and doubt * _surprise(space, [column[i] for column in inferred], centre)
+        return _Arm(centre, unlikely, known, spread=spread)
+
     for i in range(count):
         centres = likeliest(space, [column[i] for column in inferred], widest - budget.simple)
         centres += [space.encode(space.defaults), *_others(space, space.encode(space.defaults))][: budget.simple]
-        arms = [_Arm(centre, spread=spread) for centre in centres]
+        arms = [arm(i, centre) for centre in centres]
         if known and (given := known[i]) is not None:
-            arms = [*arms[: max(1, widest - 1)], _Arm(space.encode(given), known=True, spread=spread)]
+            arms = [*arms[: max(1, widest - 1)], arm(i, space.encode(given), known=True)]
         searches.append(_Search(arms, np.random.default_rng([seed, i]), low[i], high[i]))
     fallback = [space.canonical(space.decode(search.arms[0].centre)) for search in searches]
     part = parts[0]
@@ -153,11 +164,11 @@ def refine(
                 starts = _others(space, best.centre)
                 if turn.other == "plain":
                     starts = [_plain(space, start) for start in (best.centre, *starts)]
-                search.leave(best, starts)
+                search.leave(best, [arm(i, start) for start in starts])
             if search.worth(turn.near, goal):
-                for arm in search.arms[: turn.combinations]:
-                    arm.slopes = None if turn.afresh else arm.slopes
-                    asked += [_Trial(i, arm, point) for point in _propose(space, arm, turn, search, part)]
+                for one in search.arms[: turn.combinations]:
+                    one.slopes = None if turn.afresh else one.slopes
+                    asked += [_Trial(i, one, point) for point in _propose(space, one, turn, search, part)]
         vectors = [space.canonical(space.decode(trial.point)) for trial in asked]
         residuals = _residuals(measure, [trial.reference for trial in asked], crew.build(vectors))
         _learn(searches, asked, vectors, residuals, part)
@@ -187,6 +198,17 @@ def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], co
         meaning = space.canonical(space.decode(vector))
         unique.setdefault(tuple(meaning.values()), np.array(vector))
     return list(unique.values())[:count]
+
+
+def _surprise(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], centre: Floats) -> float:
+    """Minus the logarithm of the probability that is inferred for the choices that matter at a point."""
+    active = set(space.active(space.decode(centre)))
+    chances = [
+        inferred[i][int(centre[i])]
+        for i, parameter in enumerate(space)
+        if parameter.classes and parameter.name in active
+    ]
+    return -float(np.log(np.maximum(chances, _UNLIKELY)).sum())
 
 
 def _plain(space: ParameterSpace, centre: Floats) -> Floats:
@@ -260,7 +282,7 @@ def _learn(
         points = measured.setdefault(id(trial.arm), (trial.arm, []))[1]
         if residual is None:
             continue
-        cost = float(np.abs(residual[part]).sum())
+        cost = float(np.abs(residual[part]).sum()) + trial.arm.doubt
         points.append((cost, trial.point, residual))
         search = searches[trial.reference]
         if cost < search.cost:
