@@ -263,7 +263,8 @@ def _with_pieces(
 
 
 def _form(piece: Piece) -> tuple[object, ...]:
-    return (piece.kind if piece.kind.startswith("slats") else "", piece.mirrored, piece.thin)
+    kind = next((word for word in ("slats", "spokes") if word in piece.kind), "")
+    return (piece.kind if kind == "slats" else kind, piece.mirrored, () if kind == "spokes" else piece.thin)
 
 
 def _largest(pieces: Sequence[Piece], form: tuple[object, ...]) -> Piece:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from shapewright.building import Limits, Workers
 from shapewright.comparison.light_field import RAW_SCALE
+from shapewright.feedback.attachment import separate
 from shapewright.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.budget import Budget, Round
@@ -27,11 +28,12 @@ SEARCH = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9))
 _PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
 _ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
 _SPREAD = 0.1
+_LENDERS = 3
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """What a changed procedure gave. parameters, distances: by the index of the reference, of all that were tried.
+    """What a changed procedure gave. parameters, replicas, distances: by the index of the reference.
 
     compatible: indices of those at or below the threshold.
     """
@@ -44,6 +46,15 @@ class Trial:
     @property
     def compatible(self) -> tuple[int, ...]:
         return tuple(row for row, distance in self.distances.items() if distance <= self.threshold)
+
+    def standing(self, before: Mapping[int, Mesh]) -> Trial:
+        """Without the replicas that are in more pieces than those before: nothing may float."""
+        rows = [
+            row
+            for row, distance in self.distances.items()
+            if distance > _PROMISING * self.threshold or separate(self.replicas[row]) <= separate(before[row])
+        ]
+        return replace(self, distances={row: self.distances[row] for row in rows})
 
     def joined(self, other: Trial) -> Trial:
         """The nearer of both for each reference."""
@@ -103,6 +114,43 @@ def tried(
         {row: found.distance for row, found in best.items()},
         judge.settings.threshold,
     )
+
+
+def lent(
+    crew: Workers,
+    trial: Trial,
+    starts: Mapping[int, Parameters],
+    judge: Judge,
+    budgets: Sequence[Budget],
+    seed: int = 0,
+) -> Trial:
+    """The trial, gone on with for the references that are not compatible from the choices with which others are.
+
+    A shape that lacks a part may be nearest with choices to which the new part does not belong. Each reference starts
+    from what is nearest: another's parameters, or its choices with the reference's own numbers.
+    """
+    space = crew.procedure.space
+    rest = [row for row in starts if row not in trial.compatible]
+    lenders: dict[tuple[object, ...], Parameters] = {}
+    for row in sorted(trial.compatible, key=lambda row: trial.distances[row]):
+        parameters = trial.parameters[row]
+        lenders.setdefault(tuple(parameters[p.name] for p in space if p.classes), parameters)
+    asked = [
+        (row, {**lender, **numbers})
+        for row in rest
+        for lender in list(lenders.values())[:_LENDERS]
+        for numbers in ({}, _numbers(space, starts[row]))
+    ]
+    nearest: dict[int, _Found] = {}
+    _judge(nearest, [row for row, _ in asked], [space.carry(values) for _, values in asked], crew, judge)
+    begin = {row: nearest[row].parameters for row in rest if row in nearest}
+    return trial.joined(tried(crew, begin, judge, budgets, seed)) if begin else trial
+
+
+def _numbers(space: ParameterSpace, values: Parameters) -> Parameters:
+    """The scalars that matter."""
+    active = space.active(space.carry(values))
+    return {p.name: values[p.name] for p in space if not p.classes and p.name in active and p.name in values}
 
 
 def unchanged(crew: Workers, before: Sequence[tuple[Parameters, Mesh]]) -> bool:

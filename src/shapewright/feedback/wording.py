@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shapewright.feedback.edit import NewParameter, NewRule
-from shapewright.feedback.pieces import WIDER_FOOT, WIDER_TOP, Kind, Piece
+from shapewright.feedback.pieces import SLOPE, WIDER_FOOT, WIDER_TOP, Kind, Piece
 from shapewright.feedback.relations import (
     INNER,
     NEW,
@@ -30,6 +30,7 @@ _LINE = 116  # characters, indented by four
 _CORNERS = (("left", "bottom", "back"), ("right", "top", "front"))
 _SIDES = ("width", "height", "depth")
 _PLACES = ("x", "level", "z")
+_SPOKES = ("spokes", "sloping spokes")
 _CALLS: dict[Kind, str] = {
     "box": "box({size}, {at})",
     "cylinder": "cylinder({size}, {at})",
@@ -241,7 +242,11 @@ def _piece_lines(
         # The gaps shrink with the count, so that any number of slats fits.
         part = float(np.median([piece.gap * piece.count for piece in several]))
         across = sizes["xyz".index(kind[-1])]
-        gap = f"{number(part)} * {across if across.isidentifier() else f'({across})'} / {count}"
+        gap = f"{number(part)} * {_operand(across)} / {count}"
+    if kind in _SPOKES:
+        asked.append(Quantity(f"{name}_breadth", tuple(piece.breadth for piece in several)))
+        asked.append(Quantity(f"{name}_count", tuple(float(piece.count) for piece in several), whole=True))
+        lines += _spokes(kind, sizes, [quantity.name for quantity in asked[-2:]], _turn(several))
     middles = [f"({low} + {high}) / 2" for low, high in zip(*_CORNERS, strict=True)]
     copies = ""
     for letter, on, axis in (("x", mirrored[0], 0), ("z", mirrored[1], 2)):
@@ -254,7 +259,7 @@ def _piece_lines(
         lines.append(f"at = {at}")
         line = f"{name} = {_call(kind, size, sizes, 'at', gap, count)}{copies}.label({_quoted(label)})"
     lines.append(line)
-    used = _call(kind, size, sizes, at, gap, count).split("(")[0]
+    used = "box" if kind in _SPOKES else _call(kind, size, sizes, at, gap, count).split("(")[0]
     # Corners that nothing needs, or that are there already, are not asked of the frame.
     anew = [axis for axis in range(3) if along[axis].ends]
     text = "\n".join(lines)
@@ -273,7 +278,37 @@ def _piece_lines(
     return [*first, *lines], asked, used
 
 
+def _spokes(kind: Kind, sizes: Sequence[str], names: Sequence[str], turn: str) -> list[str]:
+    """Lines that make bars around the origin."""
+    (width, height, depth), (breadth, count) = (_operand(size) for size in sizes), names
+    lines = []
+    if kind == "spokes":
+        lines.append(f"spoke = box(({width} / 2, {height}, {breadth} * {width}), ({width} / 4, 0, 0))")
+    else:  # lower at its outer end
+        inner, outer = SLOPE
+        lines += [
+            f"spoke = box(({width} / 2, {inner} * {height}, {breadth} * {width}), ({width} / 4, 0, 0))",
+            f"slope = (0, {(1 - inner) / 2:g} * {height}, 0), (0, {(inner * outer - 1) / 2:g} * {height}, 0)",
+            f'spoke = spoke.taper(({outer}, 1), "x").path(*slope, axis="x")',
+        ]
+    stretch = "" if width == depth else f".scale((1, 1, {depth} / {width}))"
+    turned = "" if turn == "0" else f".rotate({turn.format(count=count)})"
+    return [*lines, f"around = spoke{turned}.polar_array({count}){stretch}"]
+
+
+def _turn(several: Sequence[Piece]) -> str:
+    """By how much the first of bars is turned, as most pieces have it."""
+    words = ["180 / {count}" if piece.turn == 180.0 / piece.count else number(piece.turn) for piece in several]
+    return max(dict.fromkeys(words), key=words.count)
+
+
+def _operand(size: str) -> str:
+    return size if size.isidentifier() else f"({size})"
+
+
 def _call(kind: Kind, size: str, sizes: Sequence[str], at: str, gap: str, count: str) -> str:
+    if kind in _SPOKES:
+        return f"around.translate({at})"
     if kind.startswith("slats"):
         return f'slats({size}, {count}, {gap}, "{kind[-1]}", {at})'
     turned = f"({sizes[1]}, {sizes[0]}, {sizes[2]})" if kind == "rod x" else f"({sizes[0]}, {sizes[2]}, {sizes[1]})"
@@ -298,8 +333,8 @@ def _distinct(nouns: Sequence[str]) -> list[str]:
 def _commonest(kinds: Sequence[Kind]) -> Kind:
     """The commonest kind; a fancy one only where most agree."""
     best = max(dict.fromkeys(kinds), key=kinds.count)
-    if best in ("frustum", "foot", "sphere") and kinds.count(best) < 0.6 * len(kinds):
-        return "cylinder"
+    if best in ("frustum", "foot", "sphere", "sloping spokes") and kinds.count(best) < 0.6 * len(kinds):
+        return "spokes" if best == "sloping spokes" else "cylinder"
     return best
 
 
