@@ -45,7 +45,10 @@ def pieces(low_high, kind="box", **more):
 
 
 def built(tmp_path, rule):
-    ranges = {q.name: (min(q.values) * 0.9, max(q.values) * 1.1, float(np.median(q.values))) for q in rule.quantities}
+    ranges = {
+        q.name: (min(q.values) * 0.9 - q.whole, max(q.values) * 1.1 + q.whole, float(np.median(q.values)))
+        for q in rule.quantities
+    }
     path = tmp_path / "table.py"
     path.write_text(with_rule(TABLE, "table", rule.spelled(ranges)), encoding="utf-8")
     return sw.load_procedure(path)
@@ -108,6 +111,22 @@ def test_slats_have_a_count(tmp_path):
     procedure = built(tmp_path, addition([several], FRAMES, [], None, [""], FREE, "Slats."))
     counted = [len(procedure(spindles=True, spindles_count=n).faces) for n in (3, 5)]
     assert counted[0] < counted[1] and procedure(spindles=True, spindles_count=5).soundness().sound
+
+
+@pytest.mark.parametrize("kind", ["spokes", "sloping spokes"])
+@pytest.mark.parametrize(("counts", "turn"), [((3, 5, 5, 5), -90.0), ((4, 4, 4, 4), 45.0)])
+def test_spokes_stand_around_the_middle_as_their_pieces_do(tmp_path, kind, counts, turn):
+    several = [
+        Piece(kind, np.array([-0.4, 0, -0.3 * d]), np.array([0.4, 0.1, 0.3 * d]), count=n, breadth=0.1, turn=turn)
+        for (_, d), n in zip(SIZES, counts, strict=True)
+    ]
+    rule = addition([several], FRAMES, ["legs"], None, [""], FREE, "Spokes.")
+    assert rule.quantities[-1].name == "spokes_count" and rule.quantities[-1].whole
+    wanted = dict(zip((q.name for q in rule.quantities), (q.values[1] for q in rule.quantities), strict=True))
+    wanted["spokes_count"] = counts[1]
+    mesh = built(tmp_path, rule)(height=0.7, depth=0.6, spokes=True, **wanted)
+    np.testing.assert_allclose(part(mesh, "spokes"), several[1].mesh().bounds, atol=1e-6)
+    assert mesh.soundness().closed
 
 
 def test_a_part_drawn_in_stays_where_it_was_by_default(tmp_path):

@@ -126,13 +126,17 @@ def _unit(kind: Kind, count: int, gap: float, breadth: float, turn: float) -> So
     if kind == "slats z":
         return slats(1.0, count, gap, "z")
     if kind == "spokes":
-        return box((0.5, 1.0, breadth), (0.25, 0.0, 0.0)).rotate(turn).polar_array(count)
+        return _spoke(1.0, breadth).rotate(turn).polar_array(count)
     if kind == "sloping spokes":
         inner, outer = SLOPE
-        bar = box((0.5, inner, breadth), (0.25, 0.0, 0.0)).taper((outer, 1.0), "x")
         slope = (0.0, (1.0 - inner) / 2.0, 0.0), (0.0, (inner * outer - 1.0) / 2.0, 0.0)
-        return bar.path(*slope, axis="x").rotate(turn).polar_array(count)
+        return _spoke(inner, breadth).taper((outer, 1.0), "x").path(*slope, axis="x").rotate(turn).polar_array(count)
     return box(1.0)
+
+
+def _spoke(height: float, breadth: float) -> Solid:
+    """From a little behind the axis outwards: opposite ones that only met there would leave slivers."""
+    return box(((1.0 + breadth) / 2.0, height, breadth), ((1.0 - breadth) / 4.0, 0.0, 0.0))
 
 
 def _noun(kind: Kind, thin: tuple[bool, ...], slenderness: float, wide: bool) -> str:

@@ -280,17 +280,16 @@ def _piece_lines(
 
 def _spokes(kind: Kind, sizes: Sequence[str], names: Sequence[str], turn: str) -> list[str]:
     """Lines that make bars around the origin."""
-    (width, height, depth), (breadth, count) = (_operand(size) for size in sizes), names
-    lines = []
-    if kind == "spokes":
-        lines.append(f"spoke = box(({width} / 2, {height}, {breadth} * {width}), ({width} / 4, 0, 0))")
-    else:  # lower at its outer end
-        inner, outer = SLOPE
-        lines += [
-            f"spoke = box(({width} / 2, {inner} * {height}, {breadth} * {width}), ({width} / 4, 0, 0))",
-            f"slope = (0, {(1 - inner) / 2:g} * {height}, 0), (0, {(inner * outer - 1) / 2:g} * {height}, 0)",
-            f'spoke = spoke.taper(({outer}, 1), "x").path(*slope, axis="x")',
-        ]
+    (width, height, depth), (share, count) = (_operand(size) for size in sizes), names
+    inner, outer = SLOPE
+    high = height if kind == "spokes" else f"{inner} * {height}"
+    lines = [
+        f"breadth = {share} * {width}",
+        f"spoke = box((({width} + breadth) / 2, {high}, breadth), (({width} - breadth) / 4, 0, 0))",
+    ]
+    if kind == "sloping spokes":  # lower at its outer end
+        ends = f"(0, {(1 - inner) / 2:g} * {height}, 0)", f"(0, {(inner * outer - 1) / 2:g} * {height}, 0)"
+        lines.append(f'spoke = spoke.taper(({outer}, 1), "x").path({", ".join(ends)}, axis="x")')
     stretch = "" if width == depth else f".scale((1, 1, {depth} / {width}))"
     turned = "" if turn == "0" else f".rotate({turn.format(count=count)})"
     return [*lines, f"around = spoke{turned}.polar_array({count}){stretch}"]
