@@ -7,7 +7,8 @@ import shapewright as sw
 from shapewright.feedback.edit import free_name, with_rule
 from shapewright.feedback.pieces import Piece
 from shapewright.feedback.relations import WHOLE
-from shapewright.feedback.wording import Quantity, addition, drawing_in, number, removal
+from shapewright.feedback.spelling import Quantity, number
+from shapewright.feedback.wording import addition, drawing_in, removal
 
 TABLE = """from typing import Annotated
 

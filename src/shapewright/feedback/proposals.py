@@ -14,7 +14,8 @@ from shapewright.feedback.hypotheses import REST, Hypothesis
 from shapewright.feedback.pieces import Piece
 from shapewright.feedback.ranges import End, pressed
 from shapewright.feedback.relations import WHOLE, Frames
-from shapewright.feedback.wording import Rule, addition, drawing_in, number, removal
+from shapewright.feedback.spelling import number
+from shapewright.feedback.wording import Rule, addition, drawing_in, removal
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 from shapewright.shapes import Floats, Mesh
 
