@@ -8,9 +8,9 @@
 it replicates exactly. Lost are those that a long search, from what it can take over of their parameters, does not
 replicate either: so many are searched, a dozen at a time, that --count are lost. Restored are those of them that a
 suggestion makes compatible. The network is left out. With --json FILE what was measured before is not measured again,
-but for rules named by --only. ``steps``: fit, apply the first suggestion, and again; further collections may follow, and
-``--against FILE`` names a procedure to compare with. Options: --seed, --workers, --out folder for pictures and snippets,
---fast for a smaller network.
+but for rules named by --only. ``steps``: fit, apply the first suggestion, and again; further collections may follow,
+and ``--against FILE`` names a procedure to compare with. Options: --seed, --workers, --out folder for pictures and
+snippets, --fast for a smaller network.
 """
 
 import argparse
