@@ -1,3 +1,4 @@
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -102,6 +103,14 @@ def test_bars_in_the_corners_are_mirrored(tmp_path):
     bounds = part(built(tmp_path, rule)(bars=True), "bars")
     np.testing.assert_allclose(bounds[:, 0], [-0.5, 0.5], atol=1e-9)
     assert '.mirror("x", keep=True)' in rule.function and len(rule.quantities) <= 3
+
+
+def test_a_piece_is_called_what_most_are():
+    posts = pieces(lambda h, d: [(-0.05, 0, -0.05), (0.05, h - 0.05, 0.05)])
+    columns = [replace(piece, kind="cylinder") for piece in posts]
+    for several, name in (([posts[0], *columns[1:]], "column"), ([*columns[:1], *posts[1:]], "post")):
+        rule = addition([several], FRAMES, [], None, [""], FREE, "One.")
+        assert rule.name == f"add_{name}" and (name == "column") == ("cylinder(" in rule.function)
 
 
 def test_slats_have_a_count(tmp_path):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -147,6 +147,11 @@ def piece_lines(
         corners = ", ".join(f"({', '.join(words)})" for words in _CORNERS)
         first = [f"{corners} = {_bounds(frame)}"]
     return [*first, *lines], asked, used
+
+
+def noun(several: Sequence[Piece]) -> str:
+    """What an author might call what these pieces become."""
+    return replace(several[len(several) // 2], kind=_commonest([piece.kind for piece in several])).noun
 
 
 def _spokes(kind: Kind, sizes: Sequence[str], names: Sequence[str], turn: str) -> list[str]:

@@ -15,7 +15,7 @@ import numpy as np
 from shapewright.feedback.edit import NewParameter, NewRule
 from shapewright.feedback.pieces import Piece
 from shapewright.feedback.relations import INNER, NEW, WHOLE, Frames, best_frame, bounds_as_told, inside_of
-from shapewright.feedback.spelling import LINE, Quantity, piece_lines, quoted
+from shapewright.feedback.spelling import LINE, Quantity, noun, piece_lines, quoted
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ def addition(
     """
     order = sorted(range(len(pieces)), key=lambda i: not any(pieces[i][0].mirrored))  # others reach from side to side
     pieces, labels = [pieces[i] for i in order], [labels[i] for i in order]
-    nouns = _distinct([several[len(several) // 2].noun for several in pieces])
+    nouns = _distinct([noun(several) for several in pieces])
     stem = free("_and_".join(nouns)[:40].strip("_"))
     body: list[str] = []
     quantities: list[Quantity] = []
@@ -70,17 +70,17 @@ def addition(
     names: list[str] = []
     known = [dict(each) for each in frames]
     standing: dict[str, str] = {}
-    for several, noun, label in zip(pieces, nouns, labels, strict=True):
+    for several, word, label in zip(pieces, nouns, labels, strict=True):
         frame, along = best_frame(several, known)
-        lines, asked, used = piece_lines(several, known, frame, along, free(noun), label or noun, standing)
+        lines, asked, used = piece_lines(several, known, frame, along, free(word), label or word, standing)
         for each, piece in zip(known, several, strict=True):
             outer = bounds_as_told(piece, frame, along, each)
-            each[f"{NEW}{free(noun)}"] = outer
-            each[f"{INNER}{NEW}{free(noun)}"] = inside_of(piece, outer)
+            each[f"{NEW}{free(word)}"] = outer
+            each[f"{INNER}{NEW}{free(word)}"] = inside_of(piece, outer)
         body += lines
         quantities += asked
         imports.append(used)
-        names.append(free(noun))
+        names.append(free(word))
     rest = f"shape.without({', '.join(map(quoted, removed))})" if removed else "shape"
     if inset is not None:
         factor = free(f"{stem}_inset")
@@ -136,9 +136,9 @@ def _about(frames: Sequence[Frames]) -> str:
 def _distinct(nouns: Sequence[str]) -> list[str]:
     seen: dict[str, int] = {}
     result = []
-    for noun in nouns:
-        seen[noun] = seen.get(noun, 0) + 1
-        result.append(noun if seen[noun] == 1 else f"{noun}_{seen[noun]}")
+    for word in nouns:
+        seen[word] = seen.get(word, 0) + 1
+        result.append(word if seen[word] == 1 else f"{word}_{seen[word]}")
     return result
 
 
