@@ -193,6 +193,7 @@ def _confirmed(
         starts, before = {m.row: idea.start(m) for m in some}, {m.row: m.replica for m in some}
         with changed(idea.write(idea.ranges), procedure, judge) as new:
             trial = tried(new, starts, judge, [PEEK, LOOK, SEARCH], judge.settings.seed).standing(before)
+            left -= peek * (len(some) - len(trial.compatible))
             trial = lent(new, trial, starts, judge, [PEEK, LOOK, SEARCH], judge.settings.seed).standing(before)
         made = {row: trial.parameters[row] for row in trial.compatible}
         if not made:

@@ -141,9 +141,13 @@ def lent(
         for lender in list(lenders.values())[:_LENDERS]
         for numbers in ({}, _numbers(space, starts[row]))
     ]
-    nearest: dict[int, _Found] = {}
-    _judge(nearest, [row for row, _ in asked], [space.carry(values) for _, values in asked], crew, judge)
-    begin = {row: nearest[row].parameters for row in rest if row in nearest}
+    builds = crew.build([space.carry(values) for _, values in asked])
+    made = [
+        (row, b.parameters, b.shape) for (row, _), b in zip(asked, builds, strict=True) if isinstance(b.shape, Mesh)
+    ]
+    costs = judge.search_costs([(row, mesh) for row, _, mesh in made])
+    nearest_last = sorted(zip(costs, made, strict=True), key=lambda each: -each[0])
+    begin = {row: parameters for _, (row, parameters, _) in nearest_last}
     return trial.joined(tried(crew, begin, judge, budgets, seed)) if begin else trial
 
 
