@@ -219,8 +219,9 @@ def _value(trial: Trial) -> float:
 
 
 def _shown(found: Sequence[_Tried], limit: int) -> list[_Tried]:
-    """Largest gain first, simpler first on a tie; none that only repeats part of what one before it does."""
-    order = sorted(found, key=lambda each: (-_value(each.trial), len(each.ranges)))
+    """Largest gain first, simpler first on a tie; none that only repeats part of what another does."""
+    needed = [each for each in found if not any(_simpler(other, each) for other in found)]
+    order = sorted(needed, key=lambda each: (-_value(each.trial), len(each.ranges)))
     shown: list[_Tried] = []
     for each in order:
         repeats = any(
@@ -230,6 +231,12 @@ def _shown(found: Sequence[_Tried], limit: int) -> list[_Tried]:
         if not repeats and len(shown) < limit:
             shown.append(each)
     return shown
+
+
+def _simpler(one: _Tried, other: _Tried) -> bool:
+    """Whether one makes fewer Ranges longer than the other, for as many references."""
+    fewer = bool(one.proposal.ends) and set(one.proposal.ends) < set(other.proposal.ends)
+    return fewer and len(one.trial.compatible) >= len(other.trial.compatible)
 
 
 def _suggestion(found: _Tried, procedure: Procedure, explained: Mapping[int, Explained], judge: Judge) -> Suggestion:
