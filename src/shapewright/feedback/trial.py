@@ -127,7 +127,7 @@ def lent(
     """The trial, gone on with for the references that are not compatible from the choices with which others are.
 
     A shape that lacks a part may be nearest with choices to which the new part does not belong. Each reference starts
-    from what is nearest: another's parameters, or its choices with the reference's own numbers.
+    from the nearest of mixtures: another's parameters, its choices with the reference's own numbers, or one choice.
     """
     space = crew.procedure.space
     rest = [row for row in starts if row not in trial.compatible]
@@ -136,12 +136,12 @@ def lent(
         parameters = trial.parameters[row]
         lenders.setdefault(tuple(parameters[p.name] for p in space if p.classes), parameters)
     asked = [
-        (row, {**lender, **numbers})
+        (row, values)
         for row in rest
         for lender in list(lenders.values())[:_LENDERS]
-        for numbers in ({}, _numbers(space, starts[row]))
+        for values in _mixed(space, space.carry(starts[row]), lender)
     ]
-    builds = crew.build([space.carry(values) for _, values in asked])
+    builds = crew.build([space.canonical(values) for _, values in asked])
     made = [
         (row, b.parameters, b.shape) for (row, _), b in zip(asked, builds, strict=True) if isinstance(b.shape, Mesh)
     ]
@@ -151,10 +151,16 @@ def lent(
     return trial.joined(tried(crew, begin, judge, budgets, seed)) if begin else trial
 
 
-def _numbers(space: ParameterSpace, values: Parameters) -> Parameters:
-    """The scalars that matter."""
-    active = space.active(space.carry(values))
-    return {p.name: values[p.name] for p in space if not p.classes and p.name in active and p.name in values}
+def _mixed(space: ParameterSpace, own: Parameters, other: Parameters) -> Iterator[Parameters]:
+    """The other parameters; these with a reference's own numbers, where they matter; its own with one other choice."""
+    active = space.active(own)
+    numbers = {p.name: own[p.name] for p in space if not p.classes and p.name in active}
+    choices = {p.name: own[p.name] for p in space if p.classes}
+    yield other
+    yield {**other, **numbers}
+    for name in choices:
+        if own[name] != other[name]:
+            yield {**other, **numbers, **choices, name: other[name]}
 
 
 def unchanged(crew: Workers, before: Sequence[tuple[Parameters, Mesh]]) -> bool:
