@@ -85,7 +85,8 @@ def test_a_longer_range_is_suggested(table, tmp_path, monkeypatch):
     made, distances = suggested(table, shapes, [{"height": 0.8, "depth": 0.4}] * 3, monkeypatch)
     assert (distances > 0.18).any()
     ranges = [each for each in made if each.kind == "range"]
-    assert ranges and ranges[0].gain == (distances > 0.18).sum() and "height" in ranges[0].title
+    assert [each.title for each in ranges] == ["A wider Range of height"]  # and not of depth, which brings nothing
+    assert ranges[0].gain == (distances > 0.18).sum()
     assert "height: Annotated[float, Range(0.4, 1." in ranges[0].snippet
     path = tmp_path / "changed.py"
     path.write_text(ranges[0].source)

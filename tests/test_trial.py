@@ -2,9 +2,9 @@ import pytest
 
 import shapewright as sw
 from shapewright.building import Workers
-from shapewright.feedback.trial import GLANCE, SEARCH, changed, tried, unchanged
+from shapewright.feedback.trial import GLANCE, SEARCH, Trial, changed, lent, tried, unchanged
 from shapewright.judge import Judge
-from shapewright.modelling.solids import box
+from shapewright.modelling.solids import box, cylinder
 from shapewright.procedure import ProcedureError
 
 POST = """from typing import Annotated
@@ -64,3 +64,27 @@ def test_what_was_built_before_stays_as_it_was(post, judge):
         assert unchanged(crew, known)
     with changed(POST.replace("return box", "raise ValueError; return box"), post, judge) as crew:
         assert not unchanged(crew, known)
+
+
+CHOICE = POST.replace("wide: bool = False", "wide: bool = False, round: bool = False").replace(
+    "return box", "return cylinder((0.5, height, 0.5)) if round else box"
+)
+
+
+def test_references_lend_each_other_their_choices(post):
+    shapes = {f"column{height}": cylinder((0.5, height, 0.5)).mesh() for height in (0.4, 0.9)}
+    judge = Judge.of(sw.Collection.of(shapes), sw.Settings(workers=1))
+    with changed(CHOICE.replace("import box", "import box, cylinder"), post, judge) as crew:
+        starts = {0: {**START, "round": True}, 1: {**START, "round": False}}
+        alone = tried(crew, starts, judge, [GLANCE])
+        alone = Trial(alone.parameters, alone.replicas, {**alone.distances, 1: 0.5}, alone.threshold)
+        together = lent(crew, alone, starts, judge, [GLANCE, SEARCH])
+        assert lent(crew, Trial({}, {}, {}, 0.18), starts, judge, [GLANCE]).distances == {}
+    assert alone.compatible == (0,) and together.compatible == (0, 1)
+    assert together.parameters[1]["round"] and together.parameters[0] == alone.parameters[0]
+
+
+def test_replicas_that_fall_apart_do_not_count():
+    whole, apart = box(1.0).mesh(), box(1.0).array(2, (3, 0, 0)).mesh()
+    trial = Trial({0: {}, 1: {}, 2: {}}, {0: whole, 1: apart, 2: apart}, {0: 0.1, 1: 0.1, 2: 0.1}, 0.18)
+    assert trial.standing({0: whole, 1: whole, 2: apart}).compatible == (0, 2)

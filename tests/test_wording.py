@@ -1,3 +1,4 @@
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -7,7 +8,8 @@ import shapewright as sw
 from shapewright.feedback.edit import free_name, with_rule
 from shapewright.feedback.pieces import Piece
 from shapewright.feedback.relations import WHOLE
-from shapewright.feedback.wording import Quantity, addition, drawing_in, number, removal
+from shapewright.feedback.spelling import Quantity, number
+from shapewright.feedback.wording import addition, drawing_in, removal
 
 TABLE = """from typing import Annotated
 
@@ -45,7 +47,10 @@ def pieces(low_high, kind="box", **more):
 
 
 def built(tmp_path, rule):
-    ranges = {q.name: (min(q.values) * 0.9, max(q.values) * 1.1, float(np.median(q.values))) for q in rule.quantities}
+    ranges = {
+        q.name: (min(q.values) * 0.9 - q.whole, max(q.values) * 1.1 + q.whole, float(np.median(q.values)))
+        for q in rule.quantities
+    }
     path = tmp_path / "table.py"
     path.write_text(with_rule(TABLE, "table", rule.spelled(ranges)), encoding="utf-8")
     return sw.load_procedure(path)
@@ -100,6 +105,14 @@ def test_bars_in_the_corners_are_mirrored(tmp_path):
     assert '.mirror("x", keep=True)' in rule.function and len(rule.quantities) <= 3
 
 
+def test_a_piece_is_called_what_most_are():
+    posts = pieces(lambda h, d: [(-0.05, 0, -0.05), (0.05, h - 0.05, 0.05)])
+    columns = [replace(piece, kind="cylinder") for piece in posts]
+    for several, name in (([posts[0], *columns[1:]], "column"), ([*columns[:1], *posts[1:]], "post")):
+        rule = addition([several], FRAMES, [], None, [""], FREE, "One.")
+        assert rule.name == f"add_{name}" and (name == "column") == ("cylinder(" in rule.function)
+
+
 def test_slats_have_a_count(tmp_path):
     several = [
         Piece("slats x", np.array([-0.4, 0.05, -0.01]), np.array([0.4, h - 0.05, 0.01]), count=n, gap=0.1)
@@ -108,6 +121,22 @@ def test_slats_have_a_count(tmp_path):
     procedure = built(tmp_path, addition([several], FRAMES, [], None, [""], FREE, "Slats."))
     counted = [len(procedure(spindles=True, spindles_count=n).faces) for n in (3, 5)]
     assert counted[0] < counted[1] and procedure(spindles=True, spindles_count=5).soundness().sound
+
+
+@pytest.mark.parametrize("kind", ["spokes", "sloping spokes"])
+@pytest.mark.parametrize(("counts", "turn"), [((3, 5, 5, 5), -90.0), ((4, 4, 4, 4), 45.0)])
+def test_spokes_stand_around_the_middle_as_their_pieces_do(tmp_path, kind, counts, turn):
+    several = [
+        Piece(kind, np.array([-0.4, 0, -0.3 * d]), np.array([0.4, 0.1, 0.3 * d]), count=n, breadth=0.1, turn=turn)
+        for (_, d), n in zip(SIZES, counts, strict=True)
+    ]
+    rule = addition([several], FRAMES, ["legs"], None, [""], FREE, "Spokes.")
+    assert rule.quantities[-1].name == "spokes_count" and rule.quantities[-1].whole
+    wanted = dict(zip((q.name for q in rule.quantities), (q.values[1] for q in rule.quantities), strict=True))
+    wanted["spokes_count"] = counts[1]
+    mesh = built(tmp_path, rule)(height=0.7, depth=0.6, spokes=True, **wanted)
+    np.testing.assert_allclose(part(mesh, "spokes"), several[1].mesh().bounds, atol=1e-6)
+    assert mesh.soundness().closed
 
 
 def test_a_part_drawn_in_stays_where_it_was_by_default(tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from shapewright.feedback.around import spokes
 from shapewright.feedback.pieces import Kind, Piece
 from shapewright.shapes import Floats
 
@@ -23,16 +25,26 @@ _FEWEST = 10
 _EQUAL = 0.03
 
 
-def decompose(points: Floats, middle: tuple[float, float], unit: float) -> tuple[Piece, ...]:
+def decompose(points: Floats, middle: tuple[float, float], unit: float, radial: bool = False) -> tuple[Piece, ...]:
     """Boxes around the points (N, 3) of a surface, largest first, at most MOST.
 
     middle: x and z of the planes about which the shape is symmetric, where it is. unit: the largest extent of the
-    whole shape. Points that are symmetric about a plane are taken apart on one side of it.
+    whole shape. Points that are symmetric about a plane are taken apart on one side of it. radial: bars around the
+    middle come first; nothing is returned where there are none.
     """
     if len(points) < _FEWEST:
         return ()
     centre = np.array([middle[0], 0.0, middle[1]])
     places = (points - centre) / unit
+    first: list[Piece] = []
+    if radial:
+        if (found := spokes(places)) is None:
+            return ()
+        bars, explained = found
+        first = [replace(bars, low=bars.low * unit + centre, high=bars.high * unit + centre, middle=middle)]
+        places = places[~explained]
+        if len(places) < _FEWEST:
+            return tuple(first)
     folded = [_symmetric(places, axis) for axis in (0, 2)]
     for axis, fold in zip((0, 2), folded, strict=True):
         if fold:
@@ -40,7 +52,7 @@ def decompose(points: Floats, middle: tuple[float, float], unit: float) -> tuple
     boxes = [box for group in _connected(places) for box in _split(places[group], MOST)]
     pieces = [_piece(low, high, folded, centre, unit, middle) for low, high in boxes]
     pieces = sorted(_rows(pieces, unit), key=lambda piece: -float(np.prod(piece.size + _PAD * unit)))
-    return tuple(pieces[:MOST])
+    return tuple([*first, *pieces][:MOST])
 
 
 def _symmetric(places: Floats, axis: int) -> bool:

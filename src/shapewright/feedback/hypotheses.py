@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from shapewright.feedback.around import COUNTS, turns
 from shapewright.feedback.attachment import loose
 from shapewright.feedback.decomposition import decompose
 from shapewright.feedback.interior import filled
@@ -32,6 +33,7 @@ _PRICE = 220.0  # cost that each part taken away and each piece must save
 _LOOSE = 1500.0  # the same of each piece that hangs in the air
 _OVERLAP = 0.2
 _EVEN = 0.93
+_BREADTH = 0.1
 _INSETS = (0.62, 0.71, 0.82, 0.91)
 
 
@@ -88,8 +90,10 @@ def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -
     blank = Hypothesis(before=before)
     tried = _priced([*_simple(replica, found, blank)], replica, costs)
     best = min(tried, key=lambda each: each.cost, default=blank)
-    for removed in dict.fromkeys([(), _surplus(found, replica)]):
-        pieces = _pieces(found, reference, replica, removed)
+    if any(piece.kind == "spokes" for piece in best.pieces):
+        tried.append(_shaped(best, replica, costs))
+    for removed, radial in product(dict.fromkeys([(), _surplus(found, replica)]), (False, True)):
+        pieces = _pieces(found, reference, replica, removed, radial)
         if pieces:
             whole = replace(blank, removed=removed, pieces=pieces)
             (whole,) = _priced([whole], replica, costs)
@@ -122,6 +126,16 @@ def _simple(replica: Mesh, found: Residuals, blank: Hypothesis) -> Iterator[Hypo
             if len(replica.label_names) > 1:
                 for s in _INSETS[::2]:
                     yield replace(blank, removed=(label,), pieces=(piece,), inset=(REST,), scale=(s, s))
+        yield from (replace(blank, removed=(label,), pieces=(piece,)) for piece in _radial(bounds, middle))
+
+
+def _radial(bounds: Floats, middle: tuple[float, float]) -> Iterator[Piece]:
+    """Bars around the middle in place of a part that is flat and about as wide as deep."""
+    width, height, depth = np.maximum(np.ptp(bounds, axis=0), 1e-6)
+    if 0.5 < width / depth < 2.0 and height < 0.5 * max(width, depth):
+        for count in COUNTS:
+            for turn in turns(count):
+                yield Piece("spokes", bounds[0], bounds[1], middle=middle, count=count, breadth=_BREADTH, turn=turn)
 
 
 def _bounds(replica: Mesh, label: str) -> Floats | None:
@@ -144,7 +158,9 @@ def _surplus(found: Residuals, replica: Mesh) -> tuple[str, ...]:
     )
 
 
-def _pieces(found: Residuals, reference: Mesh, replica: Mesh, removed: tuple[str, ...]) -> tuple[Piece, ...]:
+def _pieces(
+    found: Residuals, reference: Mesh, replica: Mesh, removed: tuple[str, ...], radial: bool
+) -> tuple[Piece, ...]:
     """What of the reference is not explained by the parts that stay, as boxes in the replica's units."""
     far: NDArray[np.bool_] = found.to_replica > NEAR
     if removed and replica.face_labels is not None:
@@ -159,7 +175,7 @@ def _pieces(found: Residuals, reference: Mesh, replica: Mesh, removed: tuple[str
     for axis in (0, 2):  # two symmetric shapes stand middle on middle, wherever their surfaces have most in common
         if _even(found.reference.points, 0.0, axis) and _even(replica.vertices, middle[axis], axis):
             points[:, axis] += middle[axis] - found.placement.invert(np.zeros(3))[axis]
-    return decompose(points, (float(middle[0]), float(middle[2])), 1.0 / found.placement.scale)
+    return decompose(points, (float(middle[0]), float(middle[2])), 1.0 / found.placement.scale, radial)
 
 
 def _even(points: Floats, middle: float, axis: int) -> bool:
@@ -203,7 +219,7 @@ def _overlap(piece: Piece, bounds: Floats) -> float:
 def _shaped(hypothesis: Hypothesis, replica: Mesh, costs: Costs) -> Hypothesis:
     """The hypothesis with each piece in the form that suits best."""
     for i, piece in enumerate(hypothesis.pieces):
-        if piece.kind != "box":
+        if piece.kind not in ("box", "spokes"):
             continue
         forms = [
             replace(hypothesis, pieces=(*hypothesis.pieces[:i], replace(piece, kind=kind), *hypothesis.pieces[i + 1 :]))
@@ -216,10 +232,12 @@ def _shaped(hypothesis: Hypothesis, replica: Mesh, costs: Costs) -> Hypothesis:
 
 
 def _share(kind: Kind) -> float:
-    return _FANCY if kind in ("frustum", "foot", "sphere") else _PLAIN
+    return _FANCY if kind in ("frustum", "foot", "sphere", "sloping spokes") else _PLAIN
 
 
 def _forms(piece: Piece) -> tuple[Kind, ...]:
+    if piece.kind == "spokes":
+        return ("sloping spokes",)
     width, height, depth = piece.size
     if 0.7 < width / depth < 1.4:
         if 0.7 < height / width < 1.4:

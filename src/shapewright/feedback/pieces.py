@@ -1,4 +1,4 @@
-"""Pieces to add to a shape: primitives that fill a box, perhaps mirrored or in a row, and their names."""
+"""Pieces to add to a shape: primitives that fill a box, perhaps mirrored, in a row or around an axis; their names."""
 
 from __future__ import annotations
 
@@ -12,9 +12,24 @@ import numpy as np
 from shapewright.modelling.solids import Solid, box, cone, cylinder, slats, sphere
 from shapewright.shapes import Floats, Mesh
 
-Kind = Literal["box", "cylinder", "rod x", "rod z", "frustum", "foot", "sphere", "slats x", "slats y", "slats z"]
+Kind = Literal[
+    "box",
+    "cylinder",
+    "rod x",
+    "rod z",
+    "frustum",
+    "foot",
+    "sphere",
+    "slats x",
+    "slats y",
+    "slats z",
+    "spokes",
+    "sloping spokes",
+]
 WIDER_TOP, WIDER_FOOT = 0.55, 0.55
 """Part of the width that the narrow end of a frustum or foot has."""
+SLOPE = (0.4, 0.5)
+"""Of sloping spokes: the height of their inner ends, of the whole; that of the outer ends, of the inner ones'."""
 _THIN, _LONG = 0.3, 2.5
 
 
@@ -22,7 +37,9 @@ _THIN, _LONG = 0.3, 2.5
 class Piece:
     """A primitive that fills the box from ``low`` to ``high``, (3,) each.
 
-    mirrored: whether it stands once more on the other side of ``middle`` along x and along z. count: of the slats.
+    mirrored: whether it stands once more on the other side of ``middle`` along x and along z. count: of the slats or
+    spokes. gap: between slats, of the whole. breadth: of spokes, of the whole. turn: degrees from x to a spoke.
+    Spokes are bars from the vertical axis of the box outwards to the ellipse that touches its sides.
     """
 
     kind: Kind
@@ -32,6 +49,8 @@ class Piece:
     middle: tuple[float, float] = (0.0, 0.0)
     count: int = 1
     gap: float = 0.0
+    breadth: float = 0.0
+    turn: float = 0.0
 
     @property
     def size(self) -> Floats:
@@ -57,6 +76,8 @@ class Piece:
         width, height, depth = self.size
         if self.kind.startswith("slats"):
             return "rails" if self.kind == "slats y" else "spindles"
+        if self.kind in ("spokes", "sloping spokes"):
+            return "spokes"
         several = "s" if any(self.mirrored) else ""
         return _noun(self.kind, self.thin, height / max(width, depth), width >= depth) + several
 
@@ -74,7 +95,8 @@ class Piece:
 
     def mesh(self) -> Mesh:
         """Its surface, all copies of it."""
-        solid = _unit(self.kind, self.count, round(self.gap, 3)).scale(tuple(self.size)).translate(tuple(self.centre))
+        unit = _unit(self.kind, self.count, round(self.gap, 3), round(self.breadth, 2), self.turn)
+        solid = unit.scale(tuple(self.size)).translate(tuple(self.centre))
         x, z = self.middle
         if self.mirrored[0]:
             solid = solid.mirror("x", keep=True, about=(x, 0.0, 0.0))
@@ -84,7 +106,7 @@ class Piece:
 
 
 @lru_cache(maxsize=256)
-def _unit(kind: Kind, count: int, gap: float) -> Solid:
+def _unit(kind: Kind, count: int, gap: float, breadth: float, turn: float) -> Solid:
     if kind == "cylinder":
         return cylinder(1.0)
     if kind == "rod x":
@@ -103,7 +125,18 @@ def _unit(kind: Kind, count: int, gap: float) -> Solid:
         return slats(1.0, count, gap, "y")
     if kind == "slats z":
         return slats(1.0, count, gap, "z")
+    if kind == "spokes":
+        return _spoke(1.0, breadth).rotate(turn).polar_array(count)
+    if kind == "sloping spokes":
+        inner, outer = SLOPE
+        slope = (0.0, (1.0 - inner) / 2.0, 0.0), (0.0, (inner * outer - 1.0) / 2.0, 0.0)
+        return _spoke(inner, breadth).taper((outer, 1.0), "x").path(*slope, axis="x").rotate(turn).polar_array(count)
     return box(1.0)
+
+
+def _spoke(height: float, breadth: float) -> Solid:
+    """From a little behind the axis outwards: opposite ones that only met there would leave slivers."""
+    return box(((1.0 + breadth) / 2.0, height, breadth), ((1.0 - breadth) / 4.0, 0.0, 0.0))
 
 
 def _noun(kind: Kind, thin: tuple[bool, ...], slenderness: float, wide: bool) -> str:

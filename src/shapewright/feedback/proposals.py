@@ -14,7 +14,8 @@ from shapewright.feedback.hypotheses import REST, Hypothesis
 from shapewright.feedback.pieces import Piece
 from shapewright.feedback.ranges import End, pressed
 from shapewright.feedback.relations import WHOLE, Frames
-from shapewright.feedback.wording import Rule, addition, drawing_in, number, removal
+from shapewright.feedback.spelling import noun, number
+from shapewright.feedback.wording import Rule, addition, drawing_in, removal
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 from shapewright.shapes import Floats, Mesh
 
@@ -251,7 +252,7 @@ def _with_pieces(
         several = [[_largest(h.pieces, key) for _, h in members] for key in chosen]
         removed = _removed(members)
         frames = [frames_of(m.replica, always) for m, _ in members]
-        nouns = _listed([f"{_article(pieces[len(pieces) // 2].noun)}" for pieces in several])
+        nouns = _listed([_article(noun(pieces)) for pieces in several])
         where = f" in place of the {_listed(removed)}" if removed else ""
         title = f"{nouns[0].upper()}{nouns[1:]}{where}{', the rest drawn in' if rest else ''}"
         inset = [h.scale[0] for _, h in members] if rest else None
@@ -263,7 +264,8 @@ def _with_pieces(
 
 
 def _form(piece: Piece) -> tuple[object, ...]:
-    return (piece.kind if piece.kind.startswith("slats") else "", piece.mirrored, piece.thin)
+    kind = next((word for word in ("slats", "spokes") if word in piece.kind), "")
+    return (piece.kind if kind == "slats" else kind, piece.mirrored, () if kind == "spokes" else piece.thin)
 
 
 def _largest(pieces: Sequence[Piece], form: tuple[object, ...]) -> Piece:
@@ -336,8 +338,8 @@ def _value(whole: bool, value: float) -> float | int:
     return round(value) if whole else float(value)
 
 
-def _article(noun: str) -> str:
-    return noun if noun.endswith("s") else f"a {noun}"
+def _article(word: str) -> str:
+    return word if word.endswith("s") else f"a {word}"
 
 
 def _listed(words: Sequence[str]) -> str:

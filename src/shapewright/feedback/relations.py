@@ -23,6 +23,7 @@ _AGREE = 0.5  # share of the misfits that have to agree
 _FLUSH, _TOUCH = 0.045, 0.07  # of the whole's largest extent: how near sides are that are one, or touch
 _LARGE = 1.3  # of a frame: it is no measure for what is larger
 _ALIKE = 1.35  # greatest ratio of two sizes that are one
+_SLIM = ("cylinder", "rod x", "rod z", "frustum", "foot", "sphere")  # as wide as the whole, they fill it no more
 _THIN = 0.4  # of a piece's own size: sides further off are not its own, however near to each other they are
 
 
@@ -76,7 +77,7 @@ def _along(several: Sequence[Piece], frames: Sequence[Frames], frame: str, share
             "on": np.abs(low - end) < slack,
             "under": np.abs(high - start) < slack,
         }
-        slim = several[0].kind not in ("box", "slats x", "slats y", "slats z") and several[0].thin[axis]
+        slim = several[0].kind in _SLIM and several[0].thin[axis]
         full = (not slim) & (np.abs(low - start) < slack) & (np.abs(high - end) < slack) & (high - low > 0.5 * extent)
         if full.mean() >= _AGREE and not mirrored:
             half = np.full(len(several), 0.5)

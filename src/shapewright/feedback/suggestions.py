@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.feedback.attachment import separate
 from shapewright.feedback.cards import Example, card
 from shapewright.feedback.edit import EditError, can_edit, parameter_line, snippet
 from shapewright.feedback.explanation import Explained
 from shapewright.feedback.hypotheses import Hypothesis, hypotheses
 from shapewright.feedback.proposals import Misfit, Proposal, Ranges, narrowed, proposals
-from shapewright.feedback.trial import GLANCE, LOOK, PEEK, SEARCH, Trial, changed, tried, unchanged
+from shapewright.feedback.trial import GLANCE, LOOK, PEEK, SEARCH, Trial, changed, lent, tried, unchanged
 from shapewright.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.procedure import Procedure, ProcedureError
@@ -161,6 +160,7 @@ def _glanced(
                 trial = tried(new, {m.row: idea.start(m) for m in some}, judge, [GLANCE], judge.settings.seed)
         except (EditError, ProcedureError):
             continue
+        trial = trial.standing({m.row: m.replica for m in some})
         share = float(np.mean([_nearness(trial, m.row) for m in some]))
         scores.append((-share * len(members), number, idea))
     return [idea for _, _, idea in sorted(scores, key=lambda score: score[:2])]
@@ -190,11 +190,13 @@ def _confirmed(
         left -= peek * len(some) + (look + search / 2) * min(len(first), len(some))
         if left < 0.0 and len(found) > 1:
             break
-        starts = {m.row: idea.start(m) for m in some}
+        starts, before = {m.row: idea.start(m) for m in some}, {m.row: m.replica for m in some}
         with changed(idea.write(idea.ranges), procedure, judge) as new:
-            trial = tried(new, starts, judge, [PEEK, LOOK, SEARCH], judge.settings.seed)
+            trial = tried(new, starts, judge, [PEEK, LOOK, SEARCH], judge.settings.seed).standing(before)
+            left -= peek * (len(some) - len(trial.compatible))
+            trial = lent(new, trial, starts, judge, [PEEK, LOOK, SEARCH], judge.settings.seed).standing(before)
         made = {row: trial.parameters[row] for row in trial.compatible}
-        if not made or _falls_apart(trial, {m.row: m.replica for m in some}):
+        if not made:
             continue
         ranges = narrowed(idea, procedure.space, list(made.values()))
         try:
@@ -211,20 +213,15 @@ def _confirmed(
     return found
 
 
-def _falls_apart(trial: Trial, before: Mapping[int, Mesh]) -> bool:
-    """Whether most of the new compatible replicas are in more pieces than those before: nothing may float."""
-    more = [separate(trial.replicas[row]) > separate(before[row]) for row in trial.compatible[:_GLANCES]]
-    return bool(more) and float(np.mean(more)) > 0.5
-
-
 def _value(trial: Trial) -> float:
     """The references that become compatible; a close replica counts half as much again as one at the threshold."""
     return sum(1.5 - 0.5 * trial.distances[row] / trial.threshold for row in trial.compatible)
 
 
 def _shown(found: Sequence[_Tried], limit: int) -> list[_Tried]:
-    """Largest gain first, simpler first on a tie; none that only repeats part of what one before it does."""
-    order = sorted(found, key=lambda each: (-_value(each.trial), len(each.ranges)))
+    """Largest gain first, simpler first on a tie; none that only repeats part of what another does."""
+    needed = [each for each in found if not any(_simpler(other, each) for other in found)]
+    order = sorted(needed, key=lambda each: (-_value(each.trial), len(each.ranges)))
     shown: list[_Tried] = []
     for each in order:
         repeats = any(
@@ -234,6 +231,12 @@ def _shown(found: Sequence[_Tried], limit: int) -> list[_Tried]:
         if not repeats and len(shown) < limit:
             shown.append(each)
     return shown
+
+
+def _simpler(one: _Tried, other: _Tried) -> bool:
+    """Whether one makes fewer Ranges longer than the other, for as many references."""
+    fewer = bool(one.proposal.ends) and set(one.proposal.ends) < set(other.proposal.ends)
+    return fewer and len(one.trial.compatible) >= len(other.trial.compatible)
 
 
 def _suggestion(found: _Tried, procedure: Procedure, explained: Mapping[int, Explained], judge: Judge) -> Suggestion:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from shapewright.building import Limits, Workers
 from shapewright.comparison.light_field import RAW_SCALE
+from shapewright.feedback.attachment import separate
 from shapewright.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.budget import Budget, Round
@@ -27,11 +28,12 @@ SEARCH = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9))
 _PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
 _ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
 _SPREAD = 0.1
+_LENDERS = 3
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """What a changed procedure gave. parameters, distances: by the index of the reference, of all that were tried.
+    """What a changed procedure gave. parameters, replicas, distances: by the index of the reference.
 
     compatible: indices of those at or below the threshold.
     """
@@ -44,6 +46,15 @@ class Trial:
     @property
     def compatible(self) -> tuple[int, ...]:
         return tuple(row for row, distance in self.distances.items() if distance <= self.threshold)
+
+    def standing(self, before: Mapping[int, Mesh]) -> Trial:
+        """Without the replicas that are in more pieces than those before: nothing may float."""
+        rows = [
+            row
+            for row, distance in self.distances.items()
+            if distance > _PROMISING * self.threshold or separate(self.replicas[row]) <= separate(before[row])
+        ]
+        return replace(self, distances={row: self.distances[row] for row in rows})
 
     def joined(self, other: Trial) -> Trial:
         """The nearer of both for each reference."""
@@ -103,6 +114,53 @@ def tried(
         {row: found.distance for row, found in best.items()},
         judge.settings.threshold,
     )
+
+
+def lent(
+    crew: Workers,
+    trial: Trial,
+    starts: Mapping[int, Parameters],
+    judge: Judge,
+    budgets: Sequence[Budget],
+    seed: int = 0,
+) -> Trial:
+    """The trial, gone on with for the references that are not compatible from the choices with which others are.
+
+    A shape that lacks a part may be nearest with choices to which the new part does not belong. Each reference starts
+    from the nearest of mixtures: another's parameters, its choices with the reference's own numbers, or one choice.
+    """
+    space = crew.procedure.space
+    rest = [row for row in starts if row not in trial.compatible]
+    lenders: dict[tuple[object, ...], Parameters] = {}
+    for row in sorted(trial.compatible, key=lambda row: trial.distances[row]):
+        parameters = trial.parameters[row]
+        lenders.setdefault(tuple(parameters[p.name] for p in space if p.classes), parameters)
+    asked = [
+        (row, values)
+        for row in rest
+        for lender in list(lenders.values())[:_LENDERS]
+        for values in _mixed(space, space.carry(starts[row]), lender)
+    ]
+    builds = crew.build([space.canonical(values) for _, values in asked])
+    made = [
+        (row, b.parameters, b.shape) for (row, _), b in zip(asked, builds, strict=True) if isinstance(b.shape, Mesh)
+    ]
+    costs = judge.search_costs([(row, mesh) for row, _, mesh in made])
+    nearest_last = sorted(zip(costs, made, strict=True), key=lambda each: -each[0])
+    begin = {row: parameters for _, (row, parameters, _) in nearest_last}
+    return trial.joined(tried(crew, begin, judge, budgets, seed)) if begin else trial
+
+
+def _mixed(space: ParameterSpace, own: Parameters, other: Parameters) -> Iterator[Parameters]:
+    """The other parameters; these with a reference's own numbers, where they matter; its own with one other choice."""
+    active = space.active(own)
+    numbers = {p.name: own[p.name] for p in space if not p.classes and p.name in active}
+    choices = {p.name: own[p.name] for p in space if p.classes}
+    yield other
+    yield {**other, **numbers}
+    for name in choices:
+        if own[name] != other[name]:
+            yield {**other, **numbers, **choices, name: other[name]}
 
 
 def unchanged(crew: Workers, before: Sequence[tuple[Parameters, Mesh]]) -> bool:

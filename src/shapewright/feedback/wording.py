@@ -13,49 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from shapewright.feedback.edit import NewParameter, NewRule
-from shapewright.feedback.pieces import WIDER_FOOT, WIDER_TOP, Kind, Piece
-from shapewright.feedback.relations import (
-    INNER,
-    NEW,
-    WHOLE,
-    Along,
-    Frames,
-    best_frame,
-    bounds_as_told,
-    equal_sizes,
-    inside_of,
-)
-
-_LINE = 116  # characters, indented by four
-_CORNERS = (("left", "bottom", "back"), ("right", "top", "front"))
-_SIDES = ("width", "height", "depth")
-_PLACES = ("x", "level", "z")
-_CALLS: dict[Kind, str] = {
-    "box": "box({size}, {at})",
-    "cylinder": "cylinder({size}, {at})",
-    "rod x": 'cylinder({turned}).rotate(90, "z").translate({at})',
-    "rod z": 'cylinder({turned}).rotate(90, "x").translate({at})',
-    "frustum": f"cone({{size}}, {{at}}, top=1, bottom={WIDER_TOP})",
-    "foot": f"cone({{size}}, {{at}}, top={WIDER_FOOT})",
-    "sphere": "sphere({size}, {at})",
-}
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A scalar or integer to add: its name and the value that each misfit asks for."""
-
-    name: str
-    values: tuple[float, ...]
-    whole: bool = False
-
-    def parameter(self, low: float, high: float, default: float, when: str | None) -> NewParameter:
-        condition = f", when=lambda p: p.{when}" if when else ""
-        if self.whole:
-            limits = f"{round(low)}, {round(high)}"
-            return NewParameter(self.name, f"Annotated[int, Range({limits}{condition})]", f"{round(default)}")
-        limits = f"{number(low)}, {number(high)}"
-        return NewParameter(self.name, f"Annotated[float, Range({limits}{condition})]", number(default))
+from shapewright.feedback.pieces import Piece
+from shapewright.feedback.relations import INNER, NEW, WHOLE, Frames, best_frame, bounds_as_told, inside_of
+from shapewright.feedback.spelling import LINE, Quantity, noun, piece_lines, quoted
 
 
 @dataclass(frozen=True)
@@ -85,11 +45,6 @@ class Rule:
         return NewRule(tuple(parameters), self.function, self.call, when, imports)
 
 
-def number(value: float) -> str:
-    """A number as an author would write it: two digits that matter."""
-    return f"{float(f'{value:.2g}'):g}"
-
-
 def addition(
     pieces: Sequence[Sequence[Piece]],
     frames: Sequence[Frames],
@@ -107,7 +62,7 @@ def addition(
     """
     order = sorted(range(len(pieces)), key=lambda i: not any(pieces[i][0].mirrored))  # others reach from side to side
     pieces, labels = [pieces[i] for i in order], [labels[i] for i in order]
-    nouns = _distinct([several[len(several) // 2].noun for several in pieces])
+    nouns = _distinct([noun(several) for several in pieces])
     stem = free("_and_".join(nouns)[:40].strip("_"))
     body: list[str] = []
     quantities: list[Quantity] = []
@@ -115,18 +70,18 @@ def addition(
     names: list[str] = []
     known = [dict(each) for each in frames]
     standing: dict[str, str] = {}
-    for several, noun, label in zip(pieces, nouns, labels, strict=True):
+    for several, word, label in zip(pieces, nouns, labels, strict=True):
         frame, along = best_frame(several, known)
-        lines, asked, used = _piece_lines(several, known, frame, along, free(noun), label or noun, standing)
+        lines, asked, used = piece_lines(several, known, frame, along, free(word), label or word, standing)
         for each, piece in zip(known, several, strict=True):
             outer = bounds_as_told(piece, frame, along, each)
-            each[f"{NEW}{free(noun)}"] = outer
-            each[f"{INNER}{NEW}{free(noun)}"] = inside_of(piece, outer)
+            each[f"{NEW}{free(word)}"] = outer
+            each[f"{INNER}{NEW}{free(word)}"] = inside_of(piece, outer)
         body += lines
         quantities += asked
         imports.append(used)
-        names.append(free(noun))
-    rest = f"shape.without({', '.join(map(_quoted, removed))})" if removed else "shape"
+        names.append(free(word))
+    rest = f"shape.without({', '.join(map(quoted, removed))})" if removed else "shape"
     if inset is not None:
         factor = free(f"{stem}_inset")
         quantities.append(Quantity(factor, tuple(inset)))
@@ -136,7 +91,7 @@ def addition(
     name = free(f"{verb}_{_plain(removed[0])}" if removed else f"{verb}_{stem}")
     arguments = ", ".join(["shape", *(q.name for q in quantities)])
     head = f"def {name}({arguments}):"
-    if len(head) > _LINE + 4:
+    if len(head) > LINE + 4:
         head = f"def {name}(\n    {arguments}\n):"
     text = "\n    ".join([head, f'"""{note}"""', *body])
     call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
@@ -160,7 +115,7 @@ def drawing_in(
     lines = [
         f"def {name}(shape, {x}, {z}):",
         f'"""{note}"""',
-        f"return shape.without({_quoted(label)}) | shape.part({_quoted(label)}).scale(({x}, 1, {z}){_about(frames)})",
+        f"return shape.without({quoted(label)}) | shape.part({quoted(label)}).scale(({x}, 1, {z}){_about(frames)})",
     ]
     return Rule(name, None, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
 
@@ -168,7 +123,7 @@ def drawing_in(
 def removal(label: str, free: Callable[[str], str]) -> Rule:
     """A rule that makes a part optional."""
     flag = free(f"with_{_plain(label)}")
-    return Rule(flag, flag, "", f"{{shape}}.without({_quoted(label)})", (), ())
+    return Rule(flag, flag, "", f"{{shape}}.without({quoted(label)})", (), ())
 
 
 def _about(frames: Sequence[Frames]) -> str:
@@ -178,134 +133,14 @@ def _about(frames: Sequence[Frames]) -> str:
     return "" if centred else ", about=shape.bounds.mean(axis=0)"
 
 
-def _piece_lines(
-    several: Sequence[Piece],
-    frames: Sequence[Frames],
-    frame: str,
-    along: Sequence[Along],
-    name: str,
-    label: str,
-    standing: dict[str, str],
-) -> tuple[list[str], list[Quantity], str]:
-    """Lines of code that make the piece; what is free; the function it needs. standing: corners that lines before gave,
-    and the frames they are of.
-    """
-    kind = _commonest([piece.kind for piece in several])
-    mirrored = several[0].mirrored
-    sizes: list[str] = []
-    lines: list[str] = []
-    asked: list[Quantity] = []
-    shared: dict[int, int] = equal_sizes(several, along)
-    for axis in range(3):
-        if ends := along[axis].ends:
-            told = ", ".join(f"{_bounds(name)}[{side}, {axis}]" for name, side in ends)
-            lines.append(f"{_CORNERS[0][axis]}, {_CORNERS[1][axis]} = {told}")
-    for axis in range(3):
-        start, end = _CORNERS[0][axis], _CORNERS[1][axis]
-        if along[axis].size == "full":
-            sizes.append(f"{end} - {start}")
-        elif axis in shared:
-            sizes.append(sizes[shared[axis]])
-        else:
-            word = "thickness" if several[len(several) // 2].thin[axis] else _SIDES[axis]
-            if any(quantity.name == f"{name}_{word}" for quantity in asked):
-                word = _SIDES[axis]
-            asked.append(Quantity(f"{name}_{word}", tuple(along[axis].ratios)))
-            lines.append(f"{word} = {name}_{word} * ({end} - {start})")
-            sizes.append(word)
-    centres = []
-    for axis in range(3):
-        start, end, size = _CORNERS[0][axis], _CORNERS[1][axis], sizes[axis]
-        half = f"{size} / 2"
-        boxes = [each[frame] for each in frames]
-        centred = along[axis].ends is None and all(
-            abs(box[:, axis].sum()) < 2e-3 * np.ptp(box[:, axis]) + 1e-9 for box in boxes
-        )
-        middle = "0" if centred else f"({start} + {end}) / 2"
-        place = along[axis].place
-        if place == "free":
-            word = f"{name}_{_PLACES[axis]}"
-            asked.append(Quantity(word, tuple(along[axis].offsets)))
-            is_mirrored = axis != 1 and mirrored[0 if axis == 0 else 1]
-            from_middle = f"{word} * ({end} - {start}) / 2" if centred else f"{middle} + {word} * ({end} - {start}) / 2"
-            centres.append(from_middle if is_mirrored else f"{start} + {word} * ({end} - {start})")
-        else:
-            where = {"middle": middle, "low": f"{start} + {half}", "high": f"{end} - {half}"}
-            where |= {"on": f"{end} + {half}", "under": f"{start} - {half}"}
-            centres.append(where[place])
-    size, at = f"({', '.join(sizes)})", f"({', '.join(centres)})"
-    gap, count = "", ""
-    if kind.startswith("slats"):
-        asked.append(Quantity(f"{name}_count", tuple(float(piece.count) for piece in several), whole=True))
-        count = asked[-1].name
-        # The gaps shrink with the count, so that any number of slats fits.
-        part = float(np.median([piece.gap * piece.count for piece in several]))
-        across = sizes["xyz".index(kind[-1])]
-        gap = f"{number(part)} * {across if across.isidentifier() else f'({across})'} / {count}"
-    middles = [f"({low} + {high}) / 2" for low, high in zip(*_CORNERS, strict=True)]
-    copies = ""
-    for letter, on, axis in (("x", mirrored[0], 0), ("z", mirrored[1], 2)):
-        if on:
-            even = all(abs(each[frame][:, axis].sum()) < 2e-3 * np.ptp(each[frame][:, axis]) + 1e-9 for each in frames)
-            about = f"({middles[0]}, 0, 0)" if axis == 0 else f"(0, 0, {middles[2]})"
-            copies += f'.mirror("{letter}", keep=True{"" if even else f", about={about}"})'
-    line = f"{name} = {_call(kind, size, sizes, at, gap, count)}{copies}.label({_quoted(label)})"
-    if len(line) > _LINE:
-        lines.append(f"at = {at}")
-        line = f"{name} = {_call(kind, size, sizes, 'at', gap, count)}{copies}.label({_quoted(label)})"
-    lines.append(line)
-    used = _call(kind, size, sizes, at, gap, count).split("(")[0]
-    # Corners that nothing needs, or that are there already, are not asked of the frame.
-    anew = [axis for axis in range(3) if along[axis].ends]
-    text = "\n".join(lines)
-    wanted = []
-    for axis in range(3):
-        words = [words[axis] for words in _CORNERS]
-        needed = [word for word in words if re.search(rf"\b{word}\b", text)]
-        if axis not in anew and any(standing.get(word) != frame for word in needed):
-            wanted.append(axis)
-        standing.update({word: NEW if axis in anew else frame for word in words if axis in anew or axis in wanted})
-    pairs = [(axis, ", ".join(words[axis] for words in _CORNERS)) for axis in wanted]
-    first = [f"{words} = {_bounds(frame)}[:, {axis}]" for axis, words in pairs]
-    if len(wanted) == 3:
-        corners = ", ".join(f"({', '.join(words)})" for words in _CORNERS)
-        first = [f"{corners} = {_bounds(frame)}"]
-    return [*first, *lines], asked, used
-
-
-def _call(kind: Kind, size: str, sizes: Sequence[str], at: str, gap: str, count: str) -> str:
-    if kind.startswith("slats"):
-        return f'slats({size}, {count}, {gap}, "{kind[-1]}", {at})'
-    turned = f"({sizes[1]}, {sizes[0]}, {sizes[2]})" if kind == "rod x" else f"({sizes[0]}, {sizes[2]}, {sizes[1]})"
-    return _CALLS[kind].format(size=size, at=at, turned=turned)
-
-
-def _bounds(frame: str) -> str:
-    if frame.startswith(NEW):
-        return f"{frame.removeprefix(NEW)}.bounds"
-    return "shape.bounds" if frame == WHOLE else f"shape.part({_quoted(frame)}).bounds"
-
-
 def _distinct(nouns: Sequence[str]) -> list[str]:
     seen: dict[str, int] = {}
     result = []
-    for noun in nouns:
-        seen[noun] = seen.get(noun, 0) + 1
-        result.append(noun if seen[noun] == 1 else f"{noun}_{seen[noun]}")
+    for word in nouns:
+        seen[word] = seen.get(word, 0) + 1
+        result.append(word if seen[word] == 1 else f"{word}_{seen[word]}")
     return result
-
-
-def _commonest(kinds: Sequence[Kind]) -> Kind:
-    """The commonest kind; a fancy one only where most agree."""
-    best = max(dict.fromkeys(kinds), key=kinds.count)
-    if best in ("frustum", "foot", "sphere") and kinds.count(best) < 0.6 * len(kinds):
-        return "cylinder"
-    return best
 
 
 def _plain(label: str) -> str:
     return re.sub(r"\W+", "_", label).strip("_").lower()
-
-
-def _quoted(text: str) -> str:
-    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
