@@ -37,7 +37,7 @@ def _convert(value: Any) -> Shape:
         raise TypeError("it returned nothing (None); end the function with `return shape`")
     if isinstance(value, tuple) and len(value) == 2 and all(_is_table(item) for item in value):
         return _mesh(value[0], value[1])
-    if isinstance(value, list | tuple):
+    if isinstance(value, list | tuple) and not hasattr(value, "_fields"):  # a named tuple is one thing
         return _join([_convert(item) for item in value])
     if hasattr(value, "geom_type") and hasattr(value, "wkb"):
         return _drawing(value)

@@ -60,16 +60,18 @@ def _touching(boxes: Sequence[Sequence[float]], least: float) -> list[int]:
 
 def _merged(points: Floats, least: float) -> Floats:
     """The points, of coordinates with gaps less than ``least`` between them all replaced by that of the first point."""
-    gaps = np.diff(np.sort(points, axis=0), axis=0)
-    if not ((gaps > 0.0) & (gaps <= least)).any():
+    columns = np.ascontiguousarray(points.T)
+    ordered = np.sort(columns, axis=1)
+    gaps = ordered[:, 1:] - ordered[:, :-1]
+    todo = ((gaps > 0.0) & (gaps <= least)).any(axis=1)
+    if not todo.any():
         return points
-    merged = np.empty_like(points)
-    for d in range(3):
-        order = np.argsort(points[:, d], kind="stable")
-        starts = np.concatenate([[0], np.nonzero(gaps[:, d] > least)[0] + 1])
+    for d in np.nonzero(todo)[0]:
+        order = np.argsort(columns[d], kind="stable")
+        starts = np.concatenate([[0], np.nonzero(gaps[d] > least)[0] + 1])
         first = np.minimum.reduceat(order, starts)
-        merged[order, d] = np.repeat(points[first, d], np.diff([*starts, len(order)]))
-    return merged
+        columns[d, order] = np.repeat(columns[d, first], np.diff(starts, append=len(order)))
+    return columns.T
 
 
 def _overlapping(points: Floats, meshes: Sequence[Mesh64], ends: Sequence[int], facing: int, extent: float) -> Floats:
@@ -86,15 +88,17 @@ def _overlapping(points: Floats, meshes: Sequence[Mesh64], ends: Sequence[int], 
     normals /= np.maximum(np.sqrt((normals * normals).sum(axis=0)), np.finfo(np.float64).tiny)
     planes = np.concatenate([normals, (normals * a).sum(axis=0)[None] / extent])
     keys = _KEYS @ np.round(planes * _GRID).astype(np.int64)  # linear: the key of the other side is the negative
-    moved = points
-    if not np.isin(keys, facing * keys).any():
+    order = np.argsort(keys, kind="stable")  # of one plane the first mesh's faces come first
+    keys, owners = keys[order], owners[order]
+    other = np.minimum(np.searchsorted(keys, facing * keys), len(keys) - 1)
+    meets = (keys[other] == facing * keys) & (owners[other] < owners)
+    if not meets.any():
         return points
-    for owner in np.unique(owners)[1:]:
-        mine = owners == owner
-        for key in np.unique(keys[mine & np.isin(facing * keys, keys[owners < owner])]):
-            side = mine & (keys == key)
-            moved = moved.copy() if moved is points else moved
-            moved[np.unique(faces[slanted[side]])] += _OVERLAP * extent * normals[:, side.argmax()]
+    moved = points.copy()
+    met, first = np.unique(np.stack([keys[meets], owners[meets]]), axis=1, return_inverse=True)
+    for i in range(met.shape[1]):
+        side = order[meets][first.ravel() == i]
+        moved[np.unique(faces[slanted[side]])] += _OVERLAP * extent * normals[:, side[0]]
     return moved
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from manifold3d import Manifold
@@ -23,8 +24,7 @@ _QUADS = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2
 _TRIANGLES = _QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(12, 3)
 
 
-@dataclass(frozen=True, slots=True)
-class Leaf:
+class Leaf(NamedTuple):
     """A finished box, its label, and the name of the rule that made it."""
 
     box: Box

@@ -9,8 +9,7 @@ new ones, and raises ValueError when a size would be negative.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -28,13 +27,13 @@ SIDES: tuple[Side, ...] = ("left", "right", "bottom", "top", "back", "front")
 _ROUNDING = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+class Box(NamedTuple):
     """A box in space, or in the space of the deformed box that it is part of.
 
     low, high: its corners. facing: 1, or -1 for each axis against which it faces. symbol: the tag that decides which
     rules apply to it. names: its label (under None) and those of single sides. form: how it is rounded or filled.
     deformations: its own, the first first. groups: those that it is part of, the outermost first.
+    A named tuple, because most of the time of a derivation goes into making boxes.
     """
 
     low: Point
@@ -68,19 +67,18 @@ class Box:
 
     def tag(self, symbol: str) -> Box:
         """The box with a tag: the rules for it apply next; without any, the box is done and the tag is its label."""
-        groups, names = self.groups, self.names  # spelt out: replace() would take most of the time of a derivation
-        return Box(self.low, self.high, self.facing, symbol, names, self.form, self.deformations, groups, self.is_void)
+        return self._replace(symbol=symbol)
 
     def label(self, name: str, *sides: Side) -> Box:
         """A label for all that the box becomes, instead of tags; or for some sides of a box that no rule divides."""
         for side in sides:
             _side("label", side)
         mine = {key: value for key, value in self.names if key not in (sides or (None,))}
-        return replace(self, names=(*mine.items(), *((side, name) for side in sides or (None,))))
+        return self._replace(names=(*mine.items(), *((side, name) for side in sides or (None,))))
 
     def void(self) -> Box:
         """A hole: all that the box becomes is cut out of what the same rule makes besides."""
-        return replace(self, is_void=True)
+        return self._replace(is_void=True)
 
     def round(self, radius: float | None = None, axis: Axis = "y") -> Box:
         """The edges along an axis rounded by a radius; without one as far as it goes, to an ellipse.
@@ -91,14 +89,14 @@ class Box:
         most = min(extent for d, extent in enumerate(self.size) if d != index) / 2.0
         if radius is not None and not 0.0 <= arguments.number("round", "radius", radius) <= most + _ROUNDING:
             raise ValueError(f"round: radius={radius!r} must lie in 0..{most:.4g}, half the lesser extent")
-        return replace(self, form=Round(index, radius) if radius != 0.0 else None)
+        return self._replace(form=Round(index, radius) if radius != 0.0 else None)
 
     def fill(self, make: Callable[..., Solid], **arguments: Any) -> Box:
         """A solid instead of a plain box: of any function ``make(size, at=..., **arguments)``, such as ``cylinder``.
 
         The solid faces as the box does. Its own labels are kept where the box has none.
         """
-        return replace(self, form=Fill(make, tuple(arguments.items())))
+        return self._replace(form=Fill(make, tuple(arguments.items())))
 
     # Where it is
 
@@ -107,12 +105,12 @@ class Box:
         if self.deformations:
             raise ValueError("move: a box that is deformed cannot be moved; move it first")
         step = np.multiply(arguments.vector("move", "by", by), self.facing)
-        return replace(self, low=_point(step + self.low), high=_point(step + self.high))
+        return self._replace(low=_point(step + self.low), high=_point(step + self.high))
 
     def flip(self, axis: Axis) -> Box:
         """The box facing the other way along an axis: what is made in it is mirrored."""
         index = arguments.axis("flip", axis)
-        return replace(self, facing=_with(self.facing, index, -self.facing[index]))
+        return self._replace(facing=_with(self.facing, index, -self.facing[index]))
 
     # Dividing it
 
@@ -178,7 +176,9 @@ class Box:
             raise ValueError(f"ends: size={size:.4g} along {axis} must lie in 0..{self.size[index]:.4g}")
         near = self._between("ends", index, sign, 0.0, size)
         far = self._between("ends", index, -sign, 0.0, size)
-        return near._facing(_with(self.facing, index, -sign)), far._facing(_with(self.facing, index, sign))
+        return near._replace(facing=_with(self.facing, index, -sign)), far._replace(
+            facing=_with(self.facing, index, sign)
+        )
 
     def corners(self, size: float | tuple[float, float], axis: Axis = "y") -> list[Box]:
         """The four corners along an axis, such as legs; ``size``: of the section, one number or two.
@@ -208,7 +208,7 @@ class Box:
         index, sign = self._side_direction(side)
         at = self.high[index] if sign > 0 else self.low[index]
         patch = self._part("face", _with(self.low, index, at), _with(self.high, index, at))
-        return patch._facing(_with(self.facing, index, sign))
+        return patch._replace(facing=_with(self.facing, index, sign))
 
     def extrude(self, height: float) -> Box:
         """A patch given thickness, outwards; a negative height goes inwards, into the box whose side it is."""
@@ -277,10 +277,6 @@ class Box:
 
     # Inner workings
 
-    def _facing(self, facing: tuple[int, int, int]) -> Box:
-        groups, names = self.groups, self.names
-        return Box(self.low, self.high, facing, self.symbol, names, self.form, self.deformations, groups, self.is_void)
-
     @property
     def _inner_groups(self) -> tuple[Group, ...]:
         return (*self.groups, Group(self.deformations)) if self.deformations else self.groups
@@ -290,7 +286,7 @@ class Box:
         return Domain(self.low, self.high, self.facing)
 
     def _deformed(self, by: Deformation) -> Box:
-        return replace(self, deformations=(*self.deformations, by))
+        return self._replace(deformations=(*self.deformations, by))
 
     def _side_direction(self, side: Side) -> tuple[int, int]:
         index, sign = divmod(_side("face", side), 2)

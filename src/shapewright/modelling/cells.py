@@ -22,15 +22,11 @@ def unite(low: Floats, high: Floats, owners: Ints) -> tuple[Floats, Ints, Ints] 
     because boxes meet in an edge or a corner only, and when there are too many coordinates for a grid.
     """
     least = SLIVER * float((high.max(axis=0) - low.min(axis=0)).max())
-    lines = [_distinct(np.sort(np.concatenate([low[:, d], high[:, d]])), least) for d in range(3)]
-    shape = np.array([len(line) for line in lines])
-    if shape.min() < 2 or shape.prod() > _MOST_CELLS:
+    grid = [_grid_lines(low[:, d], high[:, d], least) for d in range(3)]
+    (xs, x0, x1), (ys, y0, y1), (zs, z0, z1) = grid
+    if min(len(xs), len(ys), len(zs)) < 2 or len(xs) * len(ys) * len(zs) > _MOST_CELLS:
         return None
-    first, last = (
-        np.stack([np.searchsorted(lines[d], ends[:, d], side="right") - 1 for d in range(3)], axis=1)
-        for ends in (low, high)
-    )
-    points, faces, face_owners = _stitched(first, last, owners, *lines)
+    points, faces, face_owners = _stitched(x0, x1, y0, y1, z0, z1, owners, xs, ys, zs)
     closed, manifold, _, _ = topology(faces, len(points))
     if not (closed and manifold):
         return None
@@ -39,26 +35,34 @@ def unite(low: Floats, high: Floats, owners: Ints) -> tuple[Floats, Ints, Ints] 
     return points, faces, face_owners
 
 
-def _distinct(values: Floats, least: float) -> Floats:
-    """Of sorted values those that are more than ``least`` above the one kept before."""
-    kept = [float(values[0])]
-    for value in values.tolist():
-        if value - kept[-1] > least:
-            kept.append(value)
-    return np.array(kept)
+@njit(nogil=True, cache=True)
+def _grid_lines(low: Any, high: Any, least: float) -> Any:
+    """Coordinates, sorted, each over ``least`` above the one before, and the places of the ends (B,) among them."""
+    values = np.sort(np.concatenate((low, high)))
+    count = 1
+    for value in values:
+        if value - values[count - 1] > least:
+            values[count] = value
+            count += 1
+    lines = values[:count].copy()
+    first = np.searchsorted(lines, low, side="right") - 1
+    return lines, first, np.searchsorted(lines, high, side="right") - 1
 
 
 @njit(nogil=True, cache=True)
-def _stitched(first: Any, last: Any, owners: Any, xs: Any, ys: Any, zs: Any) -> Any:
-    """Points (V, 3), in the order of the grid of these coordinates, triangles (F, 3) and their owners."""
+def _stitched(x0: Any, x1: Any, y0: Any, y1: Any, z0: Any, z1: Any, owners: Any, xs: Any, ys: Any, zs: Any) -> Any:
+    """Points (V, 3), in the order of the grid of these coordinates, triangles (F, 3) and their owners.
+
+    x0 to z1: (B,), where in xs, ys and zs the boxes begin and end.
+    """
     shape = np.array([len(xs), len(ys), len(zs)])
     stride = np.array([shape[1] * shape[2], shape[2], 1])
     cells = np.full(shape[0] * shape[1] * shape[2], -1, dtype=np.int64)
     for b in range(len(owners) - 1, -1, -1):
-        for x in range(first[b, 0], last[b, 0]):
-            for y in range(first[b, 1], last[b, 1]):
+        for x in range(x0[b], x1[b]):
+            for y in range(y0[b], y1[b]):
                 start = x * stride[0] + y * stride[1]
-                cells[start + first[b, 2] : start + last[b, 2]] = owners[b]
+                cells[start + z0[b] : start + z1[b]] = owners[b]
     rectangles = _rectangles(cells, shape, stride)
     corner = np.zeros(len(cells), dtype=np.bool_)
     most = 0

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -19,8 +19,7 @@ from shapewright.modelling.curves import bernstein
 from shapewright.shapes import Floats
 
 
-@dataclass(frozen=True, slots=True)
-class Domain:
+class Domain(NamedTuple):
     """A box in space; ``facing`` has -1 for each axis along which it faces (names its ends) against the axis."""
 
     low: Point
@@ -43,8 +42,7 @@ class Domain:
         return index, sign * self.facing[index]
 
 
-@dataclass(frozen=True, slots=True)
-class Along:
+class Along(NamedTuple):
     """An axis of a domain: t is 0 at ``start`` and 1 at ``start + length``, which may lie below it."""
 
     axis: int

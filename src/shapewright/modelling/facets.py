@@ -95,7 +95,7 @@ def _moved(points: Floats, deformations: Sequence[Deformation], grid: Sequence[t
     near, far = points.copy(), points.copy()
     near[:, axis], far[:, axis] = places[after - 1], places[after]
     part = ((points[:, axis] - near[:, axis]) / (far[:, axis] - near[:, axis]))[:, None]
-    start, end = _moved(near, deformations, rest), _moved(far, deformations, rest)
+    start, end = np.split(_moved(np.concatenate([near, far]), deformations, rest), 2)
     return np.where(part == 1.0, end, start + part * (end - start))  # exact at both ends, and where they are equal
 
 

@@ -28,7 +28,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
 from typing import Any, Literal, TypeVar
@@ -311,7 +311,7 @@ class _Expansion:
             raise GrammarError(f"{_at(rule, box)}: it must yield boxes, or return one or a list of them")
         if not box.is_void and any(child.is_void for child in made):
             outer, scope = inner.groups, Group(scope=self.boxes)
-            made = [replace(child, groups=(*outer, scope, *child.groups[len(outer) :])) for child in made]
+            made = [child._replace(groups=(*outer, scope, *child.groups[len(outer) :])) for child in made]
         return made
 
 

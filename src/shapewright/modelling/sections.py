@@ -80,7 +80,7 @@ def section(function: str, polygon: Polygon) -> Section:
         if points.ndim != 2 or points.shape[1] != 2 or len(points) < 3 or not np.isfinite(points).all():
             raise ValueError(f"{function}: a polygon is at least three finite points (N, 2), not {points.tolist()!r}")
         rings.append(without_repeats(points))
-    if len(rings) == 1 and len(rings[0]) >= 3 and _is_convex(rings[0]):
+    if len(rings) == 1 and len(rings[0]) >= 3 and _is_simple(rings[0]):
         return Section((rings[0] if area(rings[0]) > 0.0 else rings[0][::-1],))
     return Section(_even_odd(function, rings))
 
@@ -94,6 +94,15 @@ def area(ring: Floats) -> float:
 def without_repeats(ring: Floats) -> Floats:
     """The ring without points that equal the one before them."""
     return np.asarray(ring[(ring != np.roll(ring, 1, axis=0)).any(axis=1)])
+
+
+def _is_simple(ring: Floats) -> bool:
+    """Whether the ring is convex, or at least does not meet itself."""
+    if _is_convex(ring):
+        return True
+    import shapely
+
+    return bool(shapely.is_valid(shapely.Polygon(ring)))
 
 
 def _is_convex(ring: Floats) -> bool:
