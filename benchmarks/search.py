@@ -109,11 +109,11 @@ def main() -> None:
     with Workers(procedure) as crew:
         row("differential evolution, the same seconds", judge.distances(crew.build(found)), took)
         started = time.perf_counter()
-        inferred, counted = predictor.infer(shapes), [0]
+        inferred, counted, residuals = predictor.infer(shapes), [0], judge.measure(range(len(shapes)))
 
         def measure(pairs):
             counted[0] += len(pairs)
-            return judge.search_residuals(pairs)
+            return residuals(pairs)
 
         for title, budget in (("quick", QUICK), ("long", LONG)):
             counted[0] = 0

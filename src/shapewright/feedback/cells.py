@@ -78,7 +78,7 @@ def _measure(
     most: float,
     found: Floats,
 ) -> None:
-    """See ``Cells.distance``: no plane is nearer than its point by more than the spacing, so no farther point counts."""
+    """See ``Cells.distance``. A plane is nearer than its point by ``spacing`` at most: no point farther counts."""
     reach = most + spacing
     first, last = np.empty(3, np.int64), np.empty(3, np.int64)
     for n in range(len(asked)):
