@@ -15,18 +15,28 @@ from shapewright.feedback.ranges import beyond as wishes_of
 from shapewright.judge import Judge
 from shapewright.parameters import Integer, Parameters, ParameterSpace, Scalar
 from shapewright.prediction.budget import Budget, Round
+from shapewright.prediction.lookup import nearest
 from shapewright.prediction.refinement import Measure, refine
+from shapewright.rendering.raster import render
 from shapewright.shapes import Floats, Mesh, Shape
 from shapewright.threads import in_threads
 
 Overlays = Mapping[int, Overlay]
 Inferred = Sequence[NDArray[np.float32]]
 
-_RIVAL = 1.25
+_RIVAL = 1.25  # of the best combination's cost
 LONGER = Budget((Round(8), Round(2, rival=_RIVAL), *(Round(1, 2, 5),) * 12), patience=1)
-LAID = Budget((Round(6), Round(2, rival=_RIVAL), Round(2, 2, 4, rival=_RIVAL), *(Round(1, 2, 5),) * 10), patience=2)
-WIDE = Budget((Round(1), Round(1), *(Round(1, 2, 5),) * 6), patience=1)
-EVALUATIONS = 10_000
+LAID = Budget(
+    (Round(6), Round(2, rival=_RIVAL), Round(2, 2, 4, rival=_RIVAL), *(Round(1, 2, 5),) * 10),
+    patience=2,
+)
+WIDE = Budget(
+    (Round(1), Round(1), *(Round(1, 2, 5),) * 3, Round(1, afresh=True), *(Round(1, 2, 5),) * 5),
+    patience=3,
+)
+RANDOM = 256
+"""Random shapes among which the most similar to a reference is looked up."""
+EVALUATIONS = 8_000
 """Shapes built for all references together, at most about: few misfits are searched for longer than many."""
 _ENOUGH = 0.9  # of the threshold: in the pose they share, distances are upper bounds of what is judged
 _CLOSE = 0.4  # of the threshold: beyond a Range the surfaces have to come together as well
@@ -85,7 +95,8 @@ class Searcher:
     def laid(self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found], overlays: Overlays) -> list[Found]:
         """The shapes inside the space whose surfaces have most in common with the references'.
 
-        overlays: by row. A shape may be further away by the light field than what is known.
+        overlays: by row. A shape may be further away by the light field than what is known. The search starts from the
+        most similar of some random shapes where that has more in common with the reference than what is known.
         """
         vectors = refine(
             self.space,
@@ -94,7 +105,7 @@ class Searcher:
             self._overlaid(rows, overlays),
             self._within(LAID, 0.55, len(rows)),
             self.seed,
-            [found.parameters for found in known],
+            self._starts(rows, known, overlays),
             spread=0.2,
         )
         fresh = self.measured(rows, vectors)
@@ -152,7 +163,7 @@ class Searcher:
             [found.parameters for found in known],
             within=limits(self.space, wide, ends),
             spread=0.06,
-            enough=_CLOSE * self.judge.goal,
+            enough=_ENOUGH * _CLOSE * self.judge.goal,
         )
         return self._nearer(rows, vectors, known)
 
@@ -172,6 +183,23 @@ class Searcher:
         if distance <= self.threshold:
             return True
         return wide > self.threshold and distance - wide <= _LEVEL * (before - wide)
+
+    def _starts(self, rows: Sequence[int], known: Sequence[Found], overlays: Overlays) -> list[Parameters]:
+        """What is known, or the most similar of some random shapes where more of the surfaces lies together."""
+        builds = self.crew.build(self.space.sample(RANDOM, self.seed + 1))
+        drawn = [(build.parameters, build.shape) for build in builds if isinstance(build.shape, Mesh)]
+        if not drawn:
+            return [found.parameters for found in known]
+        theirs = [shape for row in rows if isinstance(shape := self.judge.references.references[row].shape, Mesh)]
+        pictures = [
+            render([mesh.normalised() for mesh in meshes], threads=self.judge.settings.workers)
+            for meshes in (theirs, [mesh for _, mesh in drawn])
+        ]
+        alike = [drawn[i] for i in nearest(*pictures)]
+        return [
+            parameters if overlays[row](mesh) < overlays[row](found.mesh) else found.parameters
+            for row, found, (parameters, mesh) in zip(rows, known, alike, strict=True)
+        ]
 
     def _overlaid(self, rows: Sequence[int], overlays: Overlays) -> Measure:
         def residual(pair: tuple[int, Shape]) -> Floats | None:

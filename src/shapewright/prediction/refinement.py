@@ -173,7 +173,7 @@ def refine(
         _learn(searches, asked, vectors, residuals, part)
         if budget.patience is not None and number > 1:
             for i, cost in costs.items():
-                searches[i].idle = searches[i].idle + 1 if searches[i].cost > _MOVED * cost else 0
+                searches[i].idle = searches[i].idle + 1 if searches[i].cost >= _MOVED * cost else 0
                 searches[i].done |= searches[i].idle >= budget.patience
         if progress:
             progress(number + 1, len(budget.rounds))
