@@ -23,7 +23,10 @@ from shapewright.judge import Judge
 from shapewright.prediction.budget import QUICK, Budget, Round
 from shapewright.prediction.refinement import refine
 
-LONG = Budget((Round(24), Round(12), *(Round(8, 2, 6),) * 8, *(Round(4, 2, 8),) * 20, *(Round(2, 2, 8),) * 40))
+EXACT = (Round(3, afresh=True, probe=0.05, both=True), Round(3, 3))
+LONG = Budget(
+    (Round(24), Round(12), *(Round(8, 2, 6),) * 8, *(Round(4, 2, 8),) * 10, *(EXACT * 10), *(Round(2, 2, 8),) * 8)
+)
 
 
 def evolve(job: tuple[str, sw.Mesh, float, int]) -> dict:
@@ -32,7 +35,7 @@ def evolve(job: tuple[str, sw.Mesh, float, int]) -> dict:
 
     path, mesh, seconds, seed = job
     procedure = sw.load_procedure(path)
-    space, cost = procedure.space, AlignedCost(sw.light_field.descriptor(mesh))
+    space, cost = procedure.space, AlignedCost(mesh)
     cost(mesh)
     best: list = [np.inf, space.defaults]
     started = time.perf_counter()
@@ -109,7 +112,8 @@ def main() -> None:
     with Workers(procedure) as crew:
         row("differential evolution, the same seconds", judge.distances(crew.build(found)), took)
         started = time.perf_counter()
-        inferred, counted, residuals = predictor.infer(shapes), [0], judge.measure(range(len(shapes)))
+        inferred, counted = predictor.infer(shapes), [0]
+        residuals = judge.measure(range(len(shapes)), judge.nearest(crew.build(predictor.decode(inferred)))[1])
 
         def measure(pairs):
             counted[0] += len(pairs)

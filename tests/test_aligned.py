@@ -13,13 +13,13 @@ def table(height, leg=0.08):
 
 
 def test_the_cost_is_nought_for_the_shape_itself_in_any_size_and_place():
-    cost = AlignedCost(light_field.descriptor(table(0.7)))
+    cost = AlignedCost(table(0.7))
     assert cost(table(0.7)) == 0.0
     assert cost(Mesh(table(0.7).vertices * 3.0 + 5.0, table(0.7).faces)) < 30.0
 
 
 def test_the_cost_bounds_the_raw_distance_from_above_and_orders_shapes_as_it_does():
-    reference = light_field.descriptor(table(0.7))
+    reference = table(0.7)
     cost = AlignedCost(reference)
     shapes = [table(0.72), table(0.8), table(1.2), cylinder((1, 0.3, 1)).mesh()]
     costs = [cost(shape) for shape in shapes]
@@ -30,4 +30,4 @@ def test_the_cost_bounds_the_raw_distance_from_above_and_orders_shapes_as_it_doe
 
 def test_what_no_view_shows_costs_without_end():
     needle = Mesh(np.array([[0.0, 0, 0], [1e-9, 1, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
-    assert AlignedCost(light_field.descriptor(table(0.7)))(needle) == pytest.approx(np.inf)
+    assert AlignedCost(table(0.7))(needle) == pytest.approx(np.inf)

@@ -1,6 +1,5 @@
 import numpy as np
 
-import shapewright as sw
 from shapewright.comparison.aligned import AlignedCost
 from shapewright.feedback.hypotheses import REST, Hypothesis, applied, hypotheses
 from shapewright.feedback.residuals import residuals
@@ -17,7 +16,7 @@ def legs(spread=1.0):
 
 
 def found(reference, replica):
-    cost = AlignedCost(sw.light_field.descriptor(reference))
+    cost = AlignedCost(reference)
     shape = reference.normalised()
     return hypotheses(residuals(shape, replica), shape, replica, lambda meshes: [cost(mesh) for mesh in meshes])
 

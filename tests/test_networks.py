@@ -46,6 +46,15 @@ def test_every_network_gives_every_parameter_an_answer(name):
     assert [tuple(answer.shape) for answer in answers] == [(5, 2), (5, 3), (5, 2)]
 
 
+def test_heads_at_once_answer_as_each_by_itself():
+    heads, features = CompactNetwork(SPACE, views=1, size=16).heads, torch.randn(4, 256)
+    scalar = heads["head_s"]
+    alone = [torch.cat([scalar.value(features), scalar.spread(features)], dim=1)]
+    alone += [heads[f"head_{name}"](features) for name in SPACE.names[1:]]
+    for together, expected in zip(heads(features), alone, strict=True):
+        torch.testing.assert_close(together, expected)
+
+
 def test_the_spread_teaches_nothing_but_itself():
     network = CompactNetwork(SPACE, views=1, size=16)
     targets, active = torch.rand(4, 3), torch.ones(4, 3, dtype=torch.bool)

@@ -34,7 +34,7 @@ def inferred(*rows):
 
 
 def measure_against(targets):
-    costs = [AlignedCost(sw.light_field.descriptor(target)) for target in targets]
+    costs = [AlignedCost(target) for target in targets]
     return lambda pairs: [costs[i].residual(mesh) for i, mesh in pairs]
 
 
@@ -58,7 +58,7 @@ def test_refinement_finds_the_parameters_and_mends_a_wrong_choice():
     assert [found["form"] for found in quick] == ["square", "round"]
     predicted = [post.space.decode(row) for row in ([0.6, 0.3, 0, 0.3], [0.25, 0.45, 0, 0.6])]
     for target, found, better, before in zip(targets, quick, thorough, predicted, strict=True):
-        cost = AlignedCost(sw.light_field.descriptor(target))
+        cost = AlignedCost(target)
         assert cost(post(**found)) < 0.6 * cost(post(**before))
         assert cost(post(**better)) < 0.2 * cost(post(**before))
 
@@ -206,7 +206,7 @@ def test_where_an_earlier_search_ended_at_the_best_nothing_more_is_spent():
 
 def test_a_search_that_is_cut_short_keeps_the_best_that_rested():
     budget = Budget((Round(2), Round(1), Round(1, 2), Round(2, other="choice"), Round(2), Round(2, 2, part=1)))
-    cost = AlignedCost(sw.light_field.descriptor(post(height=1.4, width=0.3, form="square", cap=0.5)))
+    cost = AlignedCost(post(height=1.4, width=0.3, form="square", cap=0.5))
     start = inferred((0.65, 0.25, SURE, 0.5))
     parts = (slice(0, 470), slice(470, 940))
 

@@ -23,15 +23,10 @@ class AlignedCost:
     the least over the fields is hardly above it. field: 0 to 9, each sees a shape from ten directions.
     """
 
-    def __init__(self, reference: Descriptor | Mesh, field: int = 0) -> None:
+    def __init__(self, reference: Mesh, field: int = 0) -> None:
         self._axes = _AXES[field]
-        if isinstance(reference, Mesh):
-            values = self._coefficients(reference)
-            whole, exact = quantise(values), levels(values)
-        else:
-            whole = reference.coefficients[field]
-            exact = whole + 0.5
-        self._whole, self._exact = weighted(whole, 4).astype(np.int64), exact * WEIGHTS
+        values = self._coefficients(reference)
+        self._whole, self._exact = weighted(quantise(values), 4).astype(np.int64), levels(values) * WEIGHTS
 
     def __call__(self, replica: Mesh) -> float:
         """The cost of a replica, infinite for one that no view shows."""

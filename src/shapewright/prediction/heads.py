@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import torch
 from torch import Tensor, nn
+from torch.nn import functional
 
 from shapewright.parameters import ParameterSpace
 
@@ -22,15 +24,10 @@ class ScalarHead(nn.Module):
         self.value = _mlp(features, width, 1)
         self.spread = _mlp(features, width, 1)
 
-    def forward(self, features: Tensor) -> Tensor:
-        return torch.cat([self.value(features), self.spread(features.detach())], dim=1)
-
     def scale_spread(self, factor: float) -> None:
         """Multiply every spread that this head will predict."""
-        last = self.spread[-1]
-        assert isinstance(last, nn.Linear)
         with torch.no_grad():
-            last.bias.add_(math.log(factor))
+            _layer(self.spread, -1).bias.add_(math.log(factor))
 
 
 class Heads(nn.ModuleDict):
@@ -51,7 +48,19 @@ class Heads(nn.ModuleDict):
         )
 
     def forward(self, features: Tensor) -> list[Tensor]:
-        return [head(features) for head in self.values()]
+        """As each head by itself, but the many small products of all heads are a few large ones."""
+        heads = dict(enumerate(self.values()))
+        scalars = {i: head for i, head in heads.items() if isinstance(head, ScalarHead)}
+        others = {i: head for i, head in heads.items() if isinstance(head, nn.Sequential)}
+        answers: dict[int, Tensor] = {}
+        if scalars:
+            values = _numbers(features, [head.value for head in scalars.values()])
+            spreads = _numbers(features.detach(), [head.spread for head in scalars.values()])
+            answers |= zip(scalars, torch.stack([values, spreads], dim=2).unbind(1), strict=True)
+        if others:
+            hidden = _hidden(features, list(others.values())).unbind(1)
+            answers |= {i: others[i][-1](row) for i, row in zip(others, hidden, strict=True)}
+        return [answers[i] for i in heads]
 
 
 def head_of(network: nn.Module, name: str) -> nn.Module:
@@ -61,3 +70,23 @@ def head_of(network: nn.Module, name: str) -> nn.Module:
 
 def _mlp(features: int, width: int, out: int) -> nn.Sequential:
     return nn.Sequential(nn.Linear(features, width), nn.GELU(), nn.Linear(width, out))
+
+
+def _layer(mlp: nn.Sequential, index: int) -> nn.Linear:
+    layer = mlp[index]
+    assert isinstance(layer, nn.Linear)
+    return layer
+
+
+def _hidden(features: Tensor, mlps: Sequence[nn.Sequential]) -> Tensor:
+    """(B, M, W): what the last layers of M MLPs are given."""
+    layers = [_layer(mlp, 0) for mlp in mlps]
+    weight, bias = torch.cat([layer.weight for layer in layers]), torch.cat([layer.bias for layer in layers])
+    return functional.gelu(functional.linear(features, weight, bias)).reshape(len(features), len(mlps), -1)
+
+
+def _numbers(features: Tensor, mlps: Sequence[nn.Sequential]) -> Tensor:
+    """(B, M): the answers of MLPs that give one number each."""
+    layers = [_layer(mlp, -1) for mlp in mlps]
+    weight, bias = torch.cat([layer.weight for layer in layers]), torch.cat([layer.bias for layer in layers])
+    return (_hidden(features, mlps) * weight).sum(dim=2) + bias

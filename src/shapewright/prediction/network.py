@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal, TypeAlias
 
@@ -10,12 +10,13 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from shapewright.parameters import Parameter, ParameterSpace
+from shapewright.parameters import ParameterSpace
 from shapewright.prediction.heads import Heads
 from shapewright.prediction.vgg import VGG19Network
 
 NetworkName: TypeAlias = Literal["compact", "vgg19"]
-WIDTHS = (32, 64, 96, 128)
+LAYERS = ((4, 48), (2, 96), (2, 128))
+"""Stride and channels of each convolution: the first takes patches side by side, the others overlap by a pixel."""
 _LOG_SPREAD = (-9.0, 2.0)
 
 
@@ -28,19 +29,20 @@ class CompactNetwork(nn.Module):
     def __init__(self, space: ParameterSpace, views: int, size: int = 64, width: int = 128) -> None:
         super().__init__()
         layers: list[nn.Module] = []
-        channels = 2 * views
-        for out in WIDTHS:
-            layers += [nn.Conv2d(channels, out, 3, stride=2, padding=1, bias=False), nn.BatchNorm2d(out), nn.GELU()]
-            channels = out
-        side = size // 2 ** len(WIDTHS)
-        self.features = nn.Sequential(*layers, nn.Flatten(), nn.Linear(channels * side * side, 2 * width), nn.GELU())
+        channels, side = 2 * views, size
+        for stride, out in LAYERS:
+            kernel, margin = (3, 1) if layers else (stride, 0)
+            layers += [nn.Conv2d(channels, out, kernel, stride, margin, bias=False), nn.BatchNorm2d(out), nn.GELU()]
+            channels, side = out, side // stride
+        self.features = nn.Sequential(*layers)
+        self.summary = nn.Sequential(nn.Linear(channels * side * side, 2 * width), nn.GELU())
         self.heads = Heads(space, 2 * width, width)
         self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]
 
     def forward(self, images: Tensor) -> list[Tensor]:
-        answers: list[Tensor] = self.heads(
-            self.features(images.flatten(1, 2).contiguous(memory_format=torch.channels_last))
-        )
+        features = self.features(images.flatten(1, 2).contiguous(memory_format=torch.channels_last))
+        with torch.autocast(images.device.type, enabled=False):  # these weights take longer to convert than to multiply
+            answers: list[Tensor] = self.heads(self.summary(features.permute(0, 2, 3, 1).flatten(1).float()))
         return answers
 
 
@@ -57,31 +59,32 @@ def loss(space: ParameterSpace, outputs: Sequence[Tensor], targets: Tensor, acti
     targets, active: (B, P). Paper section 4.2.
     """
     total = targets.new_zeros(())
-    for parameter, output, target, weight in _columns(space, outputs, targets, active):
+    scalars = _scalars(space)
+    if scalars:
+        values = torch.stack([outputs[i][:, 0] for i in scalars], dim=1).float()
+        total = total + _mean((values - targets[:, scalars]).abs(), active[:, scalars])
+    for i, parameter in enumerate(space):
         if parameter.classes:
-            each = functional.cross_entropy(output, target.long(), reduction="none")
-        else:
-            each = (output[:, 0] - target).abs()
-        total = total + _mean(each, weight)
+            each = functional.cross_entropy(outputs[i].float(), targets[:, i].long(), reduction="none")
+            total = total + _mean(each[:, None], active[:, [i]])
     return total
 
 
 def spread_loss(space: ParameterSpace, outputs: Sequence[Tensor], targets: Tensor, active: Tensor) -> Tensor:
     """Sum over scalars of the Laplace negative log-likelihood of the errors made, the values taken as given."""
-    total = targets.new_zeros(())
-    for parameter, output, target, weight in _columns(space, outputs, targets, active):
-        if not parameter.classes:
-            error, log_spread = (output[:, 0].detach() - target).abs(), output[:, 1].clamp(*_LOG_SPREAD)
-            total = total + _mean(error * (-log_spread).exp() + log_spread, weight)
-    return total
+    scalars = _scalars(space)
+    if not scalars:
+        return targets.new_zeros(())
+    values, log_spreads = torch.stack([outputs[i] for i in scalars], dim=1).float().unbind(2)
+    errors, log_spreads = (values.detach() - targets[:, scalars]).abs(), log_spreads.clamp(*_LOG_SPREAD)
+    return _mean(errors * (-log_spreads).exp() + log_spreads, active[:, scalars])
 
 
-def _columns(
-    space: ParameterSpace, outputs: Sequence[Tensor], targets: Tensor, active: Tensor
-) -> Iterator[tuple[Parameter, Tensor, Tensor, Tensor]]:
-    for column, (parameter, output) in enumerate(zip(space, outputs, strict=True)):
-        yield parameter, output.float(), targets[:, column], active[:, column].float()
+def _scalars(space: ParameterSpace) -> list[int]:
+    return [i for i, parameter in enumerate(space) if not parameter.classes]
 
 
-def _mean(each: Tensor, weight: Tensor) -> Tensor:
-    return (each * weight).sum() / weight.sum().clamp(min=1.0)
+def _mean(each: Tensor, active: Tensor) -> Tensor:
+    """Sum over columns (B, P) of the means over the rows where they matter."""
+    weight = active.float()
+    return ((each * weight).sum(dim=0) / weight.sum(dim=0).clamp(min=1.0)).sum()

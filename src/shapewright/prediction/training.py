@@ -184,7 +184,8 @@ def _backward(
     """
     device = next(shard.parameters()).device
     images = data.images[rows] if cameras is None else _render(data, rows, cameras, threads)
-    pictures = torch.from_numpy(images).to(device).float() / 255.0
+    pictures = torch.from_numpy(images).to(device).flatten(1, 2).contiguous(memory_format=torch.channels_last)
+    pictures = pictures.float().div_(255.0).reshape(images.shape)
     pictures.requires_grad_(cameras is not None)
     targets, active = (torch.from_numpy(values[rows]).to(device) for values in (data.targets, data.active))
     with autocast(device):
