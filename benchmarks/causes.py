@@ -159,7 +159,7 @@ def made(
                 np.full((len(rows), p.classes), 1.0 / p.classes, np.float32) if p.classes else encoded[:, i]
                 for i, p in enumerate(space)
             ]
-            known = searcher._search(rows, inferred, known, QUICK)
+            known = searcher.longer(rows, inferred, known, QUICK)
     results = tuple(
         Result(
             name=reference.name,

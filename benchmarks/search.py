@@ -113,11 +113,11 @@ def main() -> None:
         row("differential evolution, the same seconds", judge.distances(crew.build(found)), took)
         started = time.perf_counter()
         inferred, counted = predictor.infer(shapes), [0]
-        _, fields = judge.nearest(crew.build(predictor.decode(inferred)))
+        residuals = judge.measure(range(len(shapes)), judge.nearest(crew.build(predictor.decode(inferred)))[1])
 
         def measure(pairs):
             counted[0] += len(pairs)
-            return judge.search_residuals(pairs, fields)
+            return residuals(pairs)
 
         for title, budget in (("quick", QUICK), ("long", LONG)):
             counted[0] = 0

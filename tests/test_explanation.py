@@ -1,6 +1,7 @@
 """Explaining an iteration of a small procedure, of which the references need more than it can make."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -162,6 +163,20 @@ def test_only_what_no_parameters_solve_is_asked_suggestions_for(procedure):
 
     found = explain(procedure, references, iteration_of(procedure, references, vectors, settings), suggest=suggest)
     assert asked == ["tall"] and found.suggestions[0]["title"] == "longer"
+
+
+def test_choices_stay_where_other_numbers_do_as_well(procedure):
+    """The post that was found alike does no better than legs of the right breadth."""
+    references = sw.Collection.of({"four": procedure(0.6, 0.5, "four"), "post": procedure(0.6, 0.5, "post")})
+    judge = Judge.of(references, sw.Settings(workers=1, threshold=0.05))
+    with Workers(procedure, 1) as crew:
+        searcher = Searcher(procedure.space, crew, judge)
+        before = searcher.measured([0, 1], [{"height": 0.6, "breadth": 0.9, "legs": "four"}] * 2)
+        best = searcher.measured([0, 1], [{"height": 0.6, "breadth": 0.5, "legs": legs} for legs in ("four", "post")])
+        as_good = [replace(best[0], parameters={**best[0].parameters, "legs": "post"}), best[1]]
+        found = searcher.chosen([0, 1], before, as_good)
+    assert [each.parameters["legs"] for each in found] == ["four", "post"]
+    assert all(each.distance <= 0.05 for each in found)
 
 
 def test_a_collection_that_lacks_a_reference_is_refused(procedure):

@@ -46,7 +46,7 @@ def test_distance_is_fidelity_lost(judge):
 
 
 def test_residuals_and_overlaps_are_of_areas(judge):
-    same, other, mesh = judge.search_residuals([(3, table()), (3, table(0.1)), (3, block(1).mesh())])
+    same, other, mesh = judge.measure([3])([(0, table()), (0, table(0.1)), (0, block(1).mesh())])
     assert mesh is None and not same.any()
     ends = [(part.start, part.stop) for part in judge.search_parts]
     assert [start for start, _ in ends] == [0, *(end for _, end in ends[:-1])] and ends[-1][1] == len(other)
@@ -104,7 +104,7 @@ def test_a_search_finds_thin_legs_that_nothing_overlaps_at_first():
     start = [np.array([0.5, 0.5]), np.array([0.5, 0.5]), np.array([0.5, 0.5]), np.full((2, 2), 0.5)]
     with Workers(desk, 1) as crew:
         found = crew.build(
-            refine(desk.space, start, crew, judge.search_residuals, DRAWN, seed=1, parts=judge.search_parts)
+            refine(desk.space, start, crew, judge.measure([0, 1]), DRAWN, seed=1, parts=judge.search_parts)
         )
     assert [build.parameters["bar"] for build in found] == [True, False]
     assert (judge.overlaps(found)[0] > 0.93).all()

@@ -232,3 +232,43 @@ def test_a_search_that_is_cut_short_keeps_the_best_that_rested():
         found = [refine(post.space, start, crew, measure, cut, parts=parts)[0] for cut in cuts]
     assert [len(cut.rounds) for cut in cuts] == [2, 3, 4, 5, 6]
     assert [values["form"] for values in found] == ["square"] * 5
+
+
+def counted(start, target, budget, known=None):
+    """How many shapes are measured, and what is found."""
+    measured = []
+
+    def measure(pairs):
+        measured.extend(pairs)
+        return measure_against([target])(pairs)
+
+    with Workers(post, 1) as crew:
+        (found,) = refine(post.space, start, crew, measure, budget, known=known)
+    return len(measured), found
+
+
+def test_a_search_ends_where_nothing_moves():
+    truth = {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.9}
+    there = [np.array([value]) for value in post.space.encode(truth)]
+    there[2] = np.array([SURE])
+    rounds = (Round(1), Round(1), *(Round(1, 1, 2),) * 6)
+    spent = [counted(there, post(**truth), Budget(rounds, patience=patience))[0] for patience in (1, 2, None)]
+    assert spent == [1 + 3 + 3, 1 + 3 + 3 * 2, 1 + 3 + 3 * 6]
+    away = inferred((0.1, 0.9, SURE, 0.1))
+    few, found = counted(away, post(**truth), Budget(rounds, patience=1))
+    assert few > spent[0] and found["height"] > 0.6
+
+
+def test_only_rivals_of_the_best_combination_take_part():
+    target = post(height=1.0, width=0.5, form="bare")
+    start = inferred((0.44, 0.44, [0.4, 0.3, 0.3], 0.9))
+    rounds = [(Round(3), Round(3, rival=rival)) for rival in (np.inf, 1.5)]
+    everyone, rivals = (counted(start, target, Budget(each))[0] for each in rounds)
+    assert everyone == 3 + 3 + 3 + 2 and rivals == 3 + 2
+
+
+def test_a_start_that_is_predicted_as_well_is_tried_once():
+    known = {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.5}
+    start = [np.array([value], dtype=np.float32) for value in post.space.encode(known)]
+    start[2] = np.array([SURE])
+    assert counted(start, post(), Budget((Round(1),)), [known])[0] == 1

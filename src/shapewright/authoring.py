@@ -196,7 +196,7 @@ def _replicate(
         procedure.space,
         [column[rows] for column in inferred],
         crew,
-        lambda pairs: judge.search_residuals([(int(rows[i]), shape) for i, shape in pairs], found.fields),
+        judge.measure(rows, found.fields[rows]),
         lesson.budget(settings),
         settings.seed,
         [known[i] for i in rows],

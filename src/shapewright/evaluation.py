@@ -92,7 +92,7 @@ def _refined(procedure: Procedure, crew: Workers, lesson: Lesson, settings: Sett
         procedure.space,
         inferred,
         crew,
-        lambda pairs: judge.search_residuals(pairs, fields),
+        judge.measure(range(len(fields)), fields),
         lesson.budget(settings),
         settings.seed,
         goal=judge.goal,

@@ -20,6 +20,7 @@ from shapewright.comparison.silhouettes import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
 from shapewright.comparison.verdict import is_same
 from shapewright.picture_judge import PictureJudge
+from shapewright.prediction.refinement import Measure
 from shapewright.references import Collection
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh, Shape
@@ -81,20 +82,19 @@ class Judge:
 
         return in_threads(cost, pairs, self.settings.workers)
 
-    def search_residuals(
-        self, pairs: Sequence[tuple[int, Shape]], fields: Sequence[int] | Ints | None = None
-    ) -> list[Floats | None]:
-        """What the cost of each replica is made of: vectors whose sums of absolute values are the costs, smoothed.
+    def measure(self, rows: Sequence[int] | Ints, fields: Sequence[int] | Ints | None = None) -> Measure:
+        """What a search for some references goes by; it gets replicas with their references' places among ``rows``.
 
-        fields: the light field to go by for each of the references, the first by default.
+        The vectors' sums of absolute values are the costs of ``search_costs``, smoothed. fields: the light field to go
+        by for each, the first by default.
         """
 
         def residual(pair: tuple[int, Shape]) -> Floats | None:
-            row, shape = pair
-            target = self._target(row, 0 if fields is None else int(fields[row]))
+            i, shape = pair
+            target = self._target(int(rows[i]), 0 if fields is None else int(fields[i]))
             return target.residual(shape) if target and isinstance(shape, Mesh) else None
 
-        return in_threads(residual, pairs, self.settings.workers)
+        return lambda pairs: in_threads(residual, pairs, self.settings.workers)
 
     @property
     def search_parts(self) -> tuple[slice, ...]:

@@ -16,6 +16,7 @@ from shapewright.building import Build
 from shapewright.comparison import outline
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
+from shapewright.prediction.refinement import Measure
 from shapewright.references import Collection
 from shapewright.rendering.ink import coverage
 from shapewright.settings import Settings
@@ -23,6 +24,7 @@ from shapewright.shapes import Drawing, Shape
 from shapewright.threads import in_threads
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 SMALL = 64
 """Pixels along the side of the pictures that are compared while searching."""
 SCALES = ((12.0, 16), (6.0, 8), (3.0, 4), (1.0, 2))
@@ -68,23 +70,22 @@ class PictureJudge:
         asked = zip(range(len(builds)) if rows is None else rows, builds, strict=True)
         return np.array(in_threads(distance, asked, self.settings.workers))
 
-    def nearest(self, builds: Sequence[Build], rows: Sequence[int] | None = None) -> tuple[Floats, NDArray[np.int64]]:
+    def nearest(self, builds: Sequence[Build], rows: Sequence[int] | None = None) -> tuple[Floats, Ints]:
         """Distances as above; drawings have one view only, 0."""
         return self.distances(builds, rows), np.zeros(len(builds), dtype=np.int64)
 
-    def search_residuals(
-        self, pairs: Sequence[tuple[int, Shape]], fields: Sequence[int] | NDArray[np.int64] | None = None
-    ) -> list[Floats | None]:
-        """How a replica and the reference with that index differ as pictures, blurred at several scales.
+    def measure(self, rows: Sequence[int] | Ints, fields: Sequence[int] | Ints | None = None) -> Measure:
+        """What a search for some references goes by; it gets replicas with their references' places among ``rows``.
 
-        Blurred pictures change evenly while an edge moves by as much as the blur is wide, sharp ones within a pixel.
-        None where one cannot be seen.
+        The vectors are differences of pictures, blurred at several scales: blurred ones change evenly while an edge
+        moves by as much as the blur is wide, sharp ones within a pixel. None where one cannot be seen.
         """
 
         def residual(asked: tuple[int, Shape]) -> Floats | None:
-            return _blurred(asked[1]) - self._target(asked[0]) if self._pair(*asked) else None
+            row, shape = int(rows[asked[0]]), asked[1]
+            return _blurred(shape) - self._target(row) if self._pair(row, shape) else None
 
-        return in_threads(residual, pairs, self.settings.workers)
+        return lambda pairs: in_threads(residual, pairs, self.settings.workers)
 
     def _target(self, row: int) -> Floats:
         """One reference at every one of the SCALES, made once."""

@@ -10,6 +10,7 @@ from scipy.spatial import ConvexHull, QhullError
 from shapewright.shapes import Floats
 
 _BETTER = 0.75  # part of the upright box's volume below which a turned box is preferred
+_ENOUGH = 400  # points that tell how a box is turned
 _THIN = 0.01  # added to every side, so that flat sets of points have a volume
 
 
@@ -24,8 +25,8 @@ class Box:
 
 def fit_box(points: Floats) -> Box:
     """The box around points (N, 3)."""
-    upright = _along(points, np.eye(3))
-    turned = [_along(points, axes) for axes in [*_about_axes(points), _principal(points)]]
+    upright, some = _along(points, np.eye(3)), points[:: max(1, len(points) // _ENOUGH)]
+    turned = [_along(points, axes) for axes in [*_about_axes(some), _principal(some)]]
     best = min(turned, key=_volume)
     return best if _volume(best) < _BETTER * _volume(upright) else upright
 

@@ -76,8 +76,7 @@ def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Ca
     together = found.outside_apart < _TOGETHER * found.laid_apart or found.outside.distance <= _CLOSE * threshold
     if ranges and found.outside.distance <= threshold and together:
         return ranges
-    nearest = min(found.inside.distance, found.outside.distance)
-    if found.isolation is not None and nearest > _FAR * threshold:
+    if found.isolation is not None and found.inside.distance > _FAR * threshold:
         return (_strange(found.isolation), *parts, *ranges)
     return (*parts, *ranges)
 

@@ -153,7 +153,7 @@ def _causes(
     rows, settings = list(found), searcher.judge.settings
     if not rows:
         return {}
-    before = list(found.values())
+    before = searcher.placed(rows, list(found.values()))
     shapes = [_mesh(searcher.judge.references.references[row].shape) for row in rows]
     theirs = [surfaces[row] for row in rows]
     inferred = _inferred(searcher.space, predictor, shapes, before)
@@ -166,6 +166,7 @@ def _causes(
     longer = searcher.longer(wanting, [column[short] for column in inferred], [inside[i] for i in short])
     for i, best in zip(short, longer, strict=True):
         inside[i] = best
+    inside = searcher.chosen(rows, before, inside)
     stages.step(2, 4)
     outside = dict(zip(rows, inside, strict=True))
     unsolved = [row for row in rows if outside[row].distance > searcher.threshold]

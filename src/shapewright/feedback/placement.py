@@ -98,11 +98,10 @@ class Overlay:
 
 def _gaps(reference: Surface, replica: Surface, theirs: Floats, ours: Floats, transform: Transform) -> Floats:
     """Distances there and back of points of two surfaces, none beyond FURTHEST; both sides count the same."""
-    there = transform.scale * replica.distance(transform.invert(theirs))
-    back = reference.distance(transform.apply(ours))
+    there = transform.scale * replica.nearness(transform.invert(theirs), FURTHEST / transform.scale)
+    back = reference.nearness(transform.apply(ours), FURTHEST)
     half = (len(there) + len(back)) / 2.0
-    sides = (np.minimum(there, FURTHEST) * (half / len(there)), np.minimum(back, FURTHEST) * (half / len(back)))
-    return np.concatenate(sides)
+    return np.concatenate([there * (half / len(there)), back * (half / len(back))])
 
 
 def _different(theirs: Floats, ours: Floats) -> Iterator[Fit]:

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
 from shapewright.feedback.edit import EditError, free_name, with_range, with_rule
 from shapewright.feedback.hypotheses import REST, Hypothesis
 from shapewright.feedback.pieces import Piece
@@ -24,7 +25,6 @@ Ranges = Mapping[str, tuple[float, float, float]]
 
 _REMOVED = 0.4  # share of the misfits whose replica has the part, from which on the rule takes it away
 _MOST_PIECES = 3
-_NEAR = 2700.0  # cost of a hypothesis that may well be compatible: the threshold, on the original's scale
 _SHARED = 0.25
 
 
@@ -33,7 +33,7 @@ class Misfit:
     """A reference that is not replicated: its index, what was found for it, and hypotheses, the best first.
 
     parameters, replica: whose surface has most in common with the reference's. nearest: the parameters that are nearest
-    by the light field, where they are others.
+    by the light field, where they are others. goal: the cost of a hypothesis that may well be compatible.
     """
 
     row: int
@@ -41,6 +41,7 @@ class Misfit:
     replica: Mesh
     hypotheses: tuple[Hypothesis, ...] = ()
     nearest: Parameters | None = None
+    goal: float = THRESHOLD * RAW_SCALE
 
     def pressed(self, space: ParameterSpace) -> set[End]:
         """The ends of Ranges that the nearest parameters rest on."""
@@ -322,7 +323,7 @@ def _proposal(
     worth = 0.0
     for i, (misfit, hypothesis) in enumerate(members):
         starts[misfit.row] = {q.name: _value(q.whole, q.values[i]) for q in rule.quantities}
-        worth += float(np.clip(1.5 - hypothesis.cost / _NEAR, 0.0, 1.0))
+        worth += float(np.clip(1.5 - hypothesis.cost / misfit.goal, 0.0, 1.0))
     return Proposal(
         kind,
         title,

@@ -3,35 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
-from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.feedback.placement import Overlay
 from shapewright.feedback.ranges import End, inside, limits, pressed, widened
 from shapewright.feedback.ranges import beyond as wishes_of
 from shapewright.judge import Judge
 from shapewright.parameters import Integer, Parameters, ParameterSpace, Scalar
 from shapewright.prediction.budget import Budget, Round
+from shapewright.prediction.lookup import nearest
 from shapewright.prediction.refinement import Measure, refine
+from shapewright.rendering.raster import render
 from shapewright.shapes import Floats, Mesh, Shape
 from shapewright.threads import in_threads
 
 Overlays = Mapping[int, Overlay]
 Inferred = Sequence[NDArray[np.float32]]
 
-FIRST = Budget((Round(8), Round(3), *(Round(2, 2, 5),) * 2, *(Round(1, 2, 5),) * 4))
-LONGER = Budget((Round(12), Round(6), *(Round(3, 2, 6),) * 2, *(Round(2, 2, 6),) * 3, *(Round(1, 2, 8),) * 8))
-LAID = Budget((Round(6), Round(3), *(Round(2, 2, 6),) * 2, *(Round(1, 2, 6),) * 5))
-WIDE = Budget((Round(3), Round(2), Round(2, 2, 5), *(Round(1, 2, 5),) * 5))
-EVALUATIONS = 10_000
-"""Shapes built for all references together, about: few misfits are searched for longer than many."""
+_RIVAL = 1.25  # of the best combination's cost
+LONGER = Budget((Round(8), Round(2, rival=_RIVAL), *(Round(1, 2, 5),) * 12), patience=1)
+LAID = Budget(
+    (Round(6), Round(2, rival=_RIVAL), Round(2, 2, 4, rival=_RIVAL), *(Round(1, 2, 5),) * 10),
+    patience=2,
+)
+WIDE = Budget(
+    (Round(1), Round(1), *(Round(1, 2, 5),) * 3, Round(1, afresh=True), *(Round(1, 2, 5),) * 5),
+    patience=3,
+)
+RANDOM = 256
+"""Random shapes among which the most similar to a reference is looked up."""
+EVALUATIONS = 6_000
+"""Shapes built for all references together, at most about: few misfits are searched for longer than many."""
 _ENOUGH = 0.9  # of the threshold: in the pose they share, distances are upper bounds of what is judged
 _CLOSE = 0.4  # of the threshold: beyond a Range the surfaces have to come together as well
-_PROMISING = 1.4  # of the threshold
 _LEVEL = 0.1  # rise of the distance that is not worth a longer Range
 
 
@@ -39,12 +47,13 @@ _LEVEL = 0.1  # rise of the distance that is not worth a longer Range
 class Found:
     """The nearest shape that is known for a reference: its parameters, mesh and distance.
 
-    parameters may lie outside the Ranges of the space.
+    parameters may lie outside the Ranges of the space. field: the light field in which it differs least.
     """
 
     parameters: Parameters
     mesh: Mesh
     distance: float
+    field: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,24 +69,34 @@ class Searcher:
     def threshold(self) -> float:
         return self.judge.settings.threshold
 
-    def longer(self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found]) -> list[Found]:
-        """The nearest shapes inside the space; those that come close to the threshold are searched for longest.
+    def placed(self, rows: Sequence[int], known: Sequence[Found]) -> list[Found]:
+        """The same, with their light fields."""
+        builds = [Build(found.parameters, found.mesh) for found in known]
+        fields = self.judge.nearest(builds, rows)[1]
+        return [replace(found, field=int(field)) for found, field in zip(known, fields, strict=True)]
 
-        inferred: what the predictor says, for these rows.
-        """
-        best = self._search(rows, inferred, known, self._within(FIRST, 0.45, len(rows)))
-        near = [i for i, found in enumerate(best) if self.threshold < found.distance <= _PROMISING * self.threshold]
-        if near:
-            budget = self._within(LONGER, 0.4, len(near))
-            more = self._search([rows[i] for i in near], [c[near] for c in inferred], [best[i] for i in near], budget)
-            for i, found in zip(near, more, strict=True):
-                best[i] = found
-        return best
+    def longer(
+        self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found], budget: Budget | None = None
+    ) -> list[Found]:
+        """The nearest shapes inside the space. inferred: what the predictor says, for these rows."""
+        vectors = refine(
+            self.space,
+            inferred,
+            self.crew,
+            self.judge.measure(rows, [found.field for found in known]),
+            budget or self._within(LONGER, 0.45, len(rows)),
+            self.seed,
+            [found.parameters for found in known],
+            spread=0.15,
+            enough=_ENOUGH * self.judge.goal,
+        )
+        return self._nearer(rows, vectors, known)
 
     def laid(self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found], overlays: Overlays) -> list[Found]:
         """The shapes inside the space whose surfaces have most in common with the references'.
 
-        overlays: by row. A shape may be further away by the light field than what is known.
+        overlays: by row. A shape may be further away by the light field than what is known. The search starts from the
+        most similar of some random shapes where that has more in common with the reference than what is known.
         """
         vectors = refine(
             self.space,
@@ -86,11 +105,25 @@ class Searcher:
             self._overlaid(rows, overlays),
             self._within(LAID, 0.55, len(rows)),
             self.seed,
-            [found.parameters for found in known],
+            self._starts(rows, known, overlays),
             spread=0.2,
         )
         fresh = self.measured(rows, vectors)
         return [new or old for new, old in zip(fresh, known, strict=True)]
+
+    def chosen(self, rows: Sequence[int], before: Sequence[Found], best: Sequence[Found]) -> list[Found]:
+        """The same, with the choices of what was found before, where these do as well with the numbers found since."""
+        best = list(best)
+        choices = [parameter.name for parameter in self.space if not isinstance(parameter, Scalar)]
+        tried = {}
+        for i, (old, new) in enumerate(zip(before, best, strict=True)):
+            kept = self.space.canonical({**new.parameters, **{name: old.parameters[name] for name in choices}})
+            if new.distance <= self.threshold and kept != new.parameters:
+                tried[i] = kept
+        for i, found in zip(tried, self.measured([rows[i] for i in tried], list(tried.values())), strict=True):
+            if found and found.distance <= self.threshold:
+                best[i] = found
+        return best
 
     def beyond(self, rows: Sequence[int], known: Sequence[Found]) -> list[Found]:
         """The nearest shapes when the Ranges are longer at the ends that the known parameters rest on.
@@ -116,23 +149,7 @@ class Searcher:
     def measured(self, rows: Sequence[int], vectors: Sequence[Parameters]) -> list[Found | None]:
         """Build and judge one vector for each row; None where no shape can be built."""
         builds = self.crew.build(vectors)
-        return [_found(build, d) for build, d in zip(builds, self.judge.distances(builds, rows), strict=True)]
-
-    def _search(
-        self, rows: Sequence[int], inferred: Inferred, known: Sequence[Found], budget: Budget, spread: float = 0.15
-    ) -> list[Found]:
-        vectors = refine(
-            self.space,
-            inferred,
-            self.crew,
-            self._measure(rows),
-            budget,
-            self.seed,
-            [found.parameters for found in known],
-            spread=spread,
-            enough=_ENOUGH * self.threshold * RAW_SCALE,
-        )
-        return self._nearer(rows, vectors, known)
+        return [_found(*each) for each in zip(builds, *self.judge.nearest(builds, rows), strict=True)]
 
     def _wide_search(self, rows: Sequence[int], known: Sequence[Found], ends: Sequence[set[End]]) -> list[Found]:
         wide = widened(self.space)
@@ -140,13 +157,13 @@ class Searcher:
             wide,
             [_guess(wide, column, known, ends) for column in range(len(wide))],
             self.crew,
-            self._measure(rows),
-            self._within(WIDE, 0.4, len(rows)),
+            self.judge.measure(rows, [found.field for found in known]),
+            self._within(_with_integers(WIDE, self.space, ends), 0.4, len(rows)),
             self.seed,
             [found.parameters for found in known],
             within=limits(self.space, wide, ends),
             spread=0.06,
-            enough=_CLOSE * self.threshold * RAW_SCALE,
+            enough=_ENOUGH * _CLOSE * self.judge.goal,
         )
         return self._nearer(rows, vectors, known)
 
@@ -167,8 +184,22 @@ class Searcher:
             return True
         return wide > self.threshold and distance - wide <= _LEVEL * (before - wide)
 
-    def _measure(self, rows: Sequence[int]) -> Measure:
-        return lambda pairs: self.judge.search_residuals([(rows[i], shape) for i, shape in pairs])
+    def _starts(self, rows: Sequence[int], known: Sequence[Found], overlays: Overlays) -> list[Parameters]:
+        """What is known, or the most similar of some random shapes where more of the surfaces lies together."""
+        builds = self.crew.build(self.space.sample(RANDOM, self.seed + 1))
+        drawn = [(build.parameters, build.shape) for build in builds if isinstance(build.shape, Mesh)]
+        if not drawn:
+            return [found.parameters for found in known]
+        theirs = [shape for row in rows if isinstance(shape := self.judge.references.references[row].shape, Mesh)]
+        pictures = [
+            render([mesh.normalised() for mesh in meshes], threads=self.judge.settings.workers)
+            for meshes in (theirs, [mesh for _, mesh in drawn])
+        ]
+        alike = [drawn[i] for i in nearest(*pictures)]
+        return [
+            parameters if overlays[row](mesh) < overlays[row](found.mesh) else found.parameters
+            for row, found, (parameters, mesh) in zip(rows, known, alike, strict=True)
+        ]
 
     def _overlaid(self, rows: Sequence[int], overlays: Overlays) -> Measure:
         def residual(pair: tuple[int, Shape]) -> Floats | None:
@@ -183,18 +214,29 @@ class Searcher:
 
     def _nearer(self, rows: Sequence[int], vectors: Sequence[Parameters], known: Sequence[Found]) -> list[Found]:
         """The nearer of what was known and what these vectors give."""
-        fresh = self.measured(rows, vectors)
-        return [new if new and new.distance < old.distance else old for new, old in zip(fresh, known, strict=True)]
+        best = list(known)
+        moved = [i for i, (vector, old) in enumerate(zip(vectors, known, strict=True)) if vector != old.parameters]
+        for i, new in zip(moved, self.measured([rows[i] for i in moved], [vectors[i] for i in moved]), strict=True):
+            if new and new.distance < best[i].distance:
+                best[i] = new
+        return best
 
 
-def _found(build: Build, distance: float) -> Found | None:
+def _found(build: Build, distance: float, field: int) -> Found | None:
     if not isinstance(build.shape, Mesh) or np.isnan(distance):
         return None
-    return Found(build.parameters, build.shape, float(distance))
+    return Found(build.parameters, build.shape, float(distance), int(field))
 
 
 def _outside(space: ParameterSpace, found: Found, name: str) -> bool:
     return any(wish.parameter == name for wish in wishes_of(space, found.parameters))
+
+
+def _with_integers(budget: Budget, space: ParameterSpace, ends: Sequence[set[End]]) -> Budget:
+    """The same, with a combination more for each whole number that may go on."""
+    more = max(sum(isinstance(space[name], Integer) for name, _ in free) for free in ends)
+    first = replace(budget.rounds[0], combinations=budget.rounds[0].combinations + more)
+    return replace(budget, rounds=(first, *budget.rounds[1:]))
 
 
 def _guess(wide: ParameterSpace, column: int, known: Sequence[Found], ends: Sequence[set[End]]) -> NDArray[np.float32]:

@@ -15,7 +15,7 @@ Kind: TypeAlias = Literal["missing part", "surplus part", "wrong form"]
 _APART = 0.06  # mean distance from the replica at which a region is a part of its own, not the same part's other form
 _WHOLE = 0.6  # share of a part that has to be too much for the part to be
 _ALIKE = 1.6  # ratio of the sides of two boxes up to which they are the same part in two places
-_LESSER = 0.5  # of a surplus part where others are missing: they stand in for those
+_LESSER = 0.5  # of a surplus part where something is unexplained: it stands in for that
 _MINOR = 0.3  # of the weightiest difference: below, it is not told
 
 
@@ -47,7 +47,8 @@ def differences(residuals: Residuals) -> tuple[Difference, ...]:
     if most == 0.0:
         text = "no part of the surface stands out; the difference is in small detail all over"
         return (Difference("wrong form", text, 0.0, {"regions": 0, "share": 0.0}),)
-    weights["surplus part"] *= 1.0 if weights["missing part"] < _MINOR * most else _LESSER
+    unexplained = sum(region.weight for region in residuals.of("unexplained"))
+    weights["surplus part"] *= 1.0 if unexplained < _MINOR * most else _LESSER
     told = [kind for kind in sorted(weights, key=lambda kind: -weights[kind]) if weights[kind] >= _MINOR * most]
     return tuple(_told(kind, sorted_out[kind], weights[kind]) for kind in told)
 

@@ -118,7 +118,8 @@ def _misfits(explained: Sequence[Explained], judge: Judge) -> list[Misfit]:
         if each.row in studied:
             replica = each.best.mesh
             guesses = hypotheses(each.misfit, each.reference, replica, lambda meshes: _costs(judge, each.row, meshes))
-        return Misfit(each.row, each.best.parameters, each.best.mesh, tuple(guesses[:3]), each.nearest.parameters)
+        nearest = each.nearest.parameters
+        return Misfit(each.row, each.best.parameters, each.best.mesh, tuple(guesses[:3]), nearest, judge.goal)
 
     return in_threads(study, explained, judge.settings.workers)
 

@@ -11,19 +11,23 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from shapewright.comparison.surfaces import Samples, sample
+from shapewright.comparison.surfaces import sample
+from shapewright.feedback.cells import Cells
 from shapewright.rendering.cameras import Camera, pack
 from shapewright.rendering.raster import draw_view
 from shapewright.shapes import Floats, Ints, Mesh, Transform
 
+Singles = NDArray[np.float32]
 SAMPLES = 4000
 _SIZE = 160
 _DISTANCE = 4.0
 _STEEPEST = 0.25  # cosine between a face and the view that still shows where it lies
 _ROUNDS = 3
+_NEARBY = 0.05  # up to which distance is measured by cells, which are quicker than a tree
 _REACH = 1.0  # spacings around a point within which its tangent plane stands for the surface
 
 
@@ -69,7 +73,7 @@ class Surface:
         for number in range(_ROUNDS):
             more = sample(mesh, count, seed + number)
             drawn.append(more)
-            shown.append(_seen(more, views))
+            shown.append(_seen(more.points, more.normals, _CAMERAS, views))
             if sum(int(seen.sum()) for seen in shown) >= count // 2:
                 break
         visible = np.concatenate(shown)
@@ -94,7 +98,12 @@ class Surface:
         """Of all points, hidden ones too."""
         return cKDTree(self.points)
 
-    @property
+    @cached_property
+    def cells(self) -> Cells:
+        """All points, sorted into cells."""
+        return Cells.of(self.points, self.normals)
+
+    @cached_property
     def spacing(self) -> float:
         """Side of the square that each point stands for."""
         return math.sqrt(self.area / max(int(self.visible.sum()), 1))
@@ -105,42 +114,56 @@ class Surface:
 
     def distance(self, points: Floats) -> Floats:
         """Distance (M,) of points (M, 3) to the surface: to the tangent plane of the nearest point, near to it."""
-        straight, nearest = self.tree.query(points)
-        above = np.abs(((points - self.points[nearest]) * self.normals[nearest]).sum(axis=1))
+        found = self.nearness(points, _NEARBY)
+        far = np.flatnonzero(found >= _NEARBY)
+        straight, nearest = self.tree.query(points[far])
+        above = np.abs(((points[far] - self.points[nearest]) * self.normals[nearest]).sum(axis=1))
         aside = np.sqrt(np.maximum(straight**2 - above**2, 0.0))
-        return np.asarray(np.hypot(above, np.maximum(aside - _REACH * self.spacing, 0.0)))
+        found[far] = np.hypot(above, np.maximum(aside - _REACH * self.spacing, 0.0))
+        return found
+
+    def nearness(self, points: Floats, most: float) -> Floats:
+        """The same, ``most`` where it is more: at a tenth of the time."""
+        return self.cells.distance(points, _REACH * self.spacing, most)
 
 
-def _depths(mesh: Mesh) -> Floats:
+def _depths(mesh: Mesh) -> Singles:
     """One over the distance along the view, (C, size, size), 0 where there is nothing."""
     inverse = np.empty((len(_CAMERAS), _SIZE, _SIZE), dtype=np.float32)
     shade, projected = np.empty((_SIZE, _SIZE), dtype=np.float32), np.empty_like(mesh.vertices)
     for camera, view in zip(_CAMERAS, inverse, strict=True):
         draw_view(mesh.vertices, mesh.faces, camera, projected, shade, view)
-    return inverse.astype(np.float64)
+    return inverse
 
 
-def _seen(samples: Samples, views: Floats) -> NDArray[np.bool_]:
-    """Whether a view shows the point: nothing there is nearer to the camera by more than a pixel's slant."""
-    seen = np.zeros(len(samples.points), dtype=bool)
-    for camera, inverse in zip(_CAMERAS, views, strict=True):
-        rows = np.flatnonzero(~seen)
-        if not len(rows):
-            break
-        seen[rows] = _shown(samples.points[rows], samples.normals[rows], camera, inverse)
+@njit(nogil=True, cache=True)
+def _seen(points: Floats, normals: Floats, cameras: Floats, views: Singles) -> NDArray[np.bool_]:
+    """Whether a view shows each point: nothing there is nearer to the camera by more than a pixel's slant."""
+    seen = np.zeros(len(points), np.bool_)
+    half = views.shape[1] / 2.0
+    last = views.shape[1] - 1
+    for n in range(len(points)):
+        for c in range(len(cameras)):
+            camera = cameras[c]
+            right, up, towards, length, cosine = 0.0, 0.0, 0.0, 0.0, 0.0
+            for axis in range(3):
+                place = points[n, axis]
+                right += camera[axis] * place
+                up += camera[3 + axis] * place
+                towards += camera[6 + axis] * place
+                ray = camera[9] * camera[6 + axis] - place
+                length += ray * ray
+                cosine += ray * normals[n, axis]
+            cosine = abs(cosine) / math.sqrt(length)
+            if cosine <= _STEEPEST:
+                continue
+            away = camera[9] - towards
+            scale = camera[10] / away * half
+            column = min(max(int(half + scale * right), 0), last)
+            row = min(max(int(half - scale * up), 0), last)
+            if views[c, row, column] > 0.0:
+                slant = math.sqrt(max(1.0 - cosine * cosine, 0.0)) / cosine
+                if away - 1.0 / views[c, row, column] < (0.25 + slant) / scale:
+                    seen[n] = True
+                    break
     return seen
-
-
-def _shown(points: Floats, normals: Floats, camera: Floats, inverse: Floats) -> NDArray[np.bool_]:
-    frame = camera[:9].reshape(3, 3)
-    right, up, towards = frame @ points.T
-    away = camera[9] - towards
-    scale = camera[10] / away * _SIZE / 2.0
-    column = np.clip((_SIZE / 2.0 + scale * right).astype(int), 0, _SIZE - 1)
-    row = np.clip((_SIZE / 2.0 - scale * up).astype(int), 0, _SIZE - 1)
-    towards_camera = camera[9] * frame[2] - points
-    cosine = np.abs((normals * towards_camera).sum(axis=1)) / np.linalg.norm(towards_camera, axis=1)
-    slant = np.sqrt(np.maximum(1.0 - cosine**2, 0.0)) / np.maximum(cosine, _STEEPEST)
-    there = inverse[row, column]
-    front = np.divide(1.0, there, out=np.full(len(away), np.inf), where=there > 0.0)
-    return np.asarray((cosine > _STEEPEST) & (away - front < (0.25 + slant) / scale))

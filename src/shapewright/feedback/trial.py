@@ -12,12 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.building import Limits, Workers
-from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.feedback.attachment import separate
 from shapewright.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.budget import Budget, Round
-from shapewright.prediction.refinement import refine
+from shapewright.prediction.refinement import Measure, refine
 from shapewright.procedure import Procedure, load_procedure
 from shapewright.shapes import Mesh
 
@@ -104,7 +103,8 @@ def tried(
         _judge(best, rows, vectors, crew, judge)
     for number, budget in enumerate(budgets):
         if rows:
-            vectors = _refined(space, crew, judge, rows, vectors, budget, seed + number)
+            fields = [best[row].field if row in best else 0 for row in rows]
+            vectors = _refined(space, crew, judge.measure(rows, fields), vectors, budget, judge.goal, seed + number)
             _judge(best, rows, vectors, crew, judge)
             rows = [row for row in rows if row in best and _worth_more(best[row].distance, judge)]
             vectors = [best[row].parameters for row in rows]
@@ -189,6 +189,7 @@ class _Found:
     parameters: Parameters
     replica: Mesh
     distance: float
+    field: int
 
 
 def _judge(
@@ -196,9 +197,9 @@ def _judge(
 ) -> None:
     """Build and judge one vector for each row, and keep it where it is nearer than what is there."""
     builds = crew.build(vectors)
-    for row, build, distance in zip(rows, builds, judge.distances(builds, rows), strict=True):
+    for row, build, distance, field in zip(rows, builds, *judge.nearest(builds, rows), strict=True):
         if isinstance(build.shape, Mesh) and distance < (best[row].distance if row in best else np.inf):
-            best[row] = _Found(build.parameters, build.shape, float(distance))
+            best[row] = _Found(build.parameters, build.shape, float(distance), int(field))
 
 
 def _worth_more(distance: float, judge: Judge) -> bool:
@@ -208,21 +209,21 @@ def _worth_more(distance: float, judge: Judge) -> bool:
 def _refined(
     space: ParameterSpace,
     crew: Workers,
-    judge: Judge,
-    rows: Sequence[int],
+    measure: Measure,
     vectors: Sequence[Parameters],
     budget: Budget,
+    goal: float,
     seed: int,
 ) -> list[Parameters]:
     return refine(
         space,
         _as_inferred(space, vectors),
         crew,
-        lambda pairs: judge.search_residuals([(rows[i], shape) for i, shape in pairs]),
+        measure,
         budget,
         seed,
         spread=_SPREAD,
-        enough=_ENOUGH * judge.settings.threshold * RAW_SCALE,
+        enough=_ENOUGH * goal,
     )
 
 

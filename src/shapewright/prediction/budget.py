@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -21,7 +21,8 @@ class Round:
     where the model is to be exact enough for the search to end at the least cost. part: which of the parts of the
     residuals it goes by; models are kept where that changes, and combinations beyond those that take part are dropped.
     other: instead of all combinations those take part that differ from the best one in one choice ("choice"), or these
-    and its own with all scalars at their defaults ("plain"); the best one itself rests until the last part.
+    and its own with all scalars at their defaults ("plain"); the best one itself rests until the last part. rival: a
+    combination takes part only while its cost is at most so many times the best one's.
     """
 
     combinations: int
@@ -33,14 +34,19 @@ class Round:
     both: bool = False
     part: int = 0
     other: Literal["choice", "plain"] | None = None
+    rival: float = np.inf
 
 
 @dataclass(frozen=True)
 class Budget:
-    """How long to search. simple: so many starts are not predicted: the defaults, then these but for one choice."""
+    """How long to search. simple: so many starts are not predicted: the defaults, then these but for one choice.
+
+    patience: after the first two rounds a search ends that so many rounds in a row have brought next to nothing.
+    """
 
     rounds: tuple[Round, ...]
     simple: int = 0
+    patience: int | None = None
 
     def evaluations(self, scalars: int) -> int:
         """Shapes built for each reference, at most, where so many scalars are free."""
@@ -51,7 +57,7 @@ class Budget:
         fit = int((np.cumsum(self._spent(scalars)) <= evaluations).sum())
         if not fit:
             return Budget((Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
-        return Budget(self.rounds[:fit], self.simple)
+        return replace(self, rounds=self.rounds[:fit])
 
     def _spent(self, scalars: int) -> list[int]:
         spent, fresh = [], True

@@ -29,6 +29,10 @@ _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1
 _FLOORS = (20.0, 1000.0)
 _UNLIKELY = 1e-4
+_MOVED = 0.98
+"""Share of its cost that a search must have left after a round that brought something."""
+_SAME = 1e-6
+"""Between encoded starts that are one: predictions are of single precision."""
 _LOCAL = 0.1
 """How far a point may lie from the best one for the linear model to learn from it."""
 
@@ -61,6 +65,7 @@ class _Search:
     best: Parameters | None = None
     cost: float = field(default=np.inf)
     kept: _Arm | None = None
+    idle: int = 0
     done: bool = False
 
     def leave(self, best: _Arm, starts: Sequence[_Arm]) -> None:
@@ -145,7 +150,9 @@ def refine(
         centres += [space.encode(space.defaults), *_others(space, space.encode(space.defaults))][: budget.simple]
         arms = [arm(i, centre) for centre in centres]
         if known and (given := known[i]) is not None:
-            arms = [*arms[: max(1, widest - 1)], arm(i, space.encode(given), known=True)]
+            start = arm(i, space.encode(given), known=True)
+            others = [other for other in arms if np.abs(other.centre - start.centre).max() > _SAME]
+            arms = [*others[: max(1, widest - 1)], start]
         searches.append(_Search(arms, np.random.default_rng([seed, i]), low[i], high[i]))
     fallback = [space.canonical(space.decode(search.arms[0].centre)) for search in searches]
     part = parts[0]
@@ -167,11 +174,18 @@ def refine(
                 search.leave(best, [arm(i, start) for start in starts])
             if search.worth(turn.near, goal):
                 for one in search.arms[: turn.combinations]:
+                    if one.cost > turn.rival * search.arms[0].cost:
+                        break
                     one.slopes = None if turn.afresh else one.slopes
                     asked += [_Trial(i, one, point) for point in _propose(space, one, turn, search, part)]
         vectors = [space.canonical(space.decode(trial.point)) for trial in asked]
         residuals = _residuals(measure, [trial.reference for trial in asked], crew.build(vectors))
+        costs = {trial.reference: searches[trial.reference].cost for trial in asked}
         _learn(searches, asked, vectors, residuals, part)
+        if budget.patience is not None and number > 1:
+            for i, cost in costs.items():
+                searches[i].idle = searches[i].idle + 1 if searches[i].cost >= _MOVED * cost else 0
+                searches[i].done |= searches[i].idle >= budget.patience
         if progress:
             progress(number + 1, len(budget.rounds))
     for search in searches:
