@@ -1,3 +1,4 @@
+from dataclasses import replace
 from typing import Annotated, Literal
 
 import numpy as np
@@ -108,6 +109,18 @@ def test_of_forms_that_look_alike_the_likelier_is_chosen():
         careless = refine(post.space, start, crew, measure, QUICK)
     assert [found["form"] for found in careful] == ["round", "square"]
     assert [found["form"] for found in careless] == ["square", "square"]
+
+
+def test_other_choices_are_tried_and_the_best_one_comes_back():
+    truth = [{"height": 1.2, "width": 0.4, "form": form, "cap": 0.6} for form in ("square", "round")]
+    start = inferred(*[(0.5, 0.3, [1.0, 0.0, 0.0], 0.6)] * 2)
+    budget = Budget((Round(1), Round(1), Round(1, 3), Round(2, other="choice"), Round(2), Round(1, 3, back=True)))
+    with Workers(post, 1) as crew:
+        found = refine(post.space, start, crew, measure_against([post(**values) for values in truth]), budget)
+        without = replace(budget, rounds=budget.rounds[:3])
+        before = refine(post.space, start, crew, measure_against([post(**values) for values in truth]), without)
+    assert [values["form"] for values in found] == ["square", "round"]
+    assert [values["form"] for values in before] == ["square", "square"]
 
 
 def test_where_nothing_can_be_built_the_prediction_stays():

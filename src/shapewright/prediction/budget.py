@@ -21,8 +21,8 @@ class Round:
     where the model is to be exact enough for the search to end at the least cost. part: which of the parts of the
     residuals it goes by; models are kept where that changes, and combinations beyond those that take part are dropped.
     other: instead of all combinations those take part that differ from the best one in one choice ("choice"), or these
-    and its own with all scalars at their defaults ("plain"); the best one itself rests until the last part. rival: a
-    combination takes part only while its cost is at most so many times the best one's.
+    and its own with all scalars at their defaults ("plain"); the best one itself rests until the last part, or until a
+    round that has it ``back``. rival: a combination takes part only while its cost is at most so many times the best's.
     """
 
     combinations: int
@@ -34,6 +34,7 @@ class Round:
     both: bool = False
     part: int = 0
     other: Literal["choice", "plain"] | None = None
+    back: bool = False
     rival: float = np.inf
 
 
@@ -77,7 +78,16 @@ def _exact(probe: float, times: int = 1) -> tuple[Round, ...]:
 QUICK = Budget((Round(8), Round(3), Round(2, 2, 2), *_exact(0.05), *(Round(1, 2, 4, near=1.4),) * 8))
 THOROUGH = Budget(
     (
-        *(Round(24), Round(8), Round(6, 2, 4), Round(4, 2, 4), Round(3, 2, 6), *(Round(2, 2, 8),) * 6),
-        *(*_exact(0.06, 3), *_exact(0.04, 4), *_exact(0.025, 5), *_exact(0.015, 3)),
+        *(
+            Round(24),
+            Round(8),
+            Round(6, 2, 4),
+            Round(4, 2, 4),
+            Round(3, 2, 6),
+            *(Round(2, 2, 8),) * 4,
+            *_exact(0.06, 2),
+        ),
+        *(Round(24, other="choice"), Round(4), Round(4, 3), *(Round(2, 2, 4),) * 3, Round(2, 2, 4, back=True)),
+        *(*_exact(0.06, 2), *_exact(0.04, 4), *_exact(0.025, 5), *_exact(0.015, 3)),
     )
 )

@@ -165,8 +165,8 @@ def refine(
             if search.done or (new is not None and search.settled(space, new)):
                 continue
             best = search.arms[0]
-            if part != before:
-                search.focus(space, part, turn.combinations, part == parts[-1])
+            if part != before or turn.back:
+                search.focus(space, part, turn.combinations, turn.back or part == parts[-1])
             if turn.other and best.residual is not None:
                 starts = _others(space, best.centre)
                 if turn.other == "plain":
