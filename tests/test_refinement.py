@@ -10,7 +10,8 @@ from shapewright.building import Workers
 from shapewright.comparison.aligned import AlignedCost
 from shapewright.modelling.solids import box, cylinder
 from shapewright.prediction.budget import QUICK, THOROUGH, Budget, Round
-from shapewright.prediction.refinement import likeliest, refine
+from shapewright.prediction.combinations import likeliest
+from shapewright.prediction.refinement import refine
 
 
 @sw.procedure

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from shapewright.building import Build, Workers
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.prediction.budget import QUICK, Budget, Round
+from shapewright.prediction.combinations import likeliest, others, plain, surprise
 from shapewright.prediction.descent import bounded_step, learn_slope
 from shapewright.shapes import Shape
 
@@ -28,7 +29,6 @@ is the cost; None where it cannot be told."""
 _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1
 _FLOORS = (20.0, 1000.0)
-_UNLIKELY = 1e-4
 _MOVED = 0.98
 """Share of its cost that a search must have left after a round that brought something."""
 _SAME = 1e-6
@@ -142,17 +142,17 @@ def refine(
     searches = []
 
     def arm(i: int, centre: Floats, known: bool = False) -> _Arm:
-        unlikely = doubt and doubt * _surprise(space, [column[i] for column in inferred], centre)
+        unlikely = doubt and doubt * surprise(space, [column[i] for column in inferred], centre)
         return _Arm(centre, unlikely, known, spread=spread)
 
     for i in range(count):
         centres = likeliest(space, [column[i] for column in inferred], widest - budget.simple)
-        centres += [space.encode(space.defaults), *_others(space, space.encode(space.defaults))][: budget.simple]
+        centres += [space.encode(space.defaults), *others(space, space.encode(space.defaults))][: budget.simple]
         arms = [arm(i, centre) for centre in centres]
         if known and (given := known[i]) is not None:
             start = arm(i, space.encode(given), known=True)
-            others = [other for other in arms if np.abs(other.centre - start.centre).max() > _SAME]
-            arms = [*others[: max(1, widest - 1)], start]
+            apart = [other for other in arms if np.abs(other.centre - start.centre).max() > _SAME]
+            arms = [*apart[: max(1, widest - 1)], start]
         searches.append(_Search(arms, np.random.default_rng([seed, i]), low[i], high[i]))
     fallback = [space.canonical(space.decode(search.arms[0].centre)) for search in searches]
     part = parts[0]
@@ -168,9 +168,9 @@ def refine(
             if part != before or turn.back:
                 search.focus(space, part, turn.combinations, turn.back or part == parts[-1])
             if turn.other and best.residual is not None:
-                starts = _others(space, best.centre)
+                starts = others(space, best.centre)
                 if turn.other == "plain":
-                    starts = [_plain(space, start) for start in (best.centre, *starts)]
+                    starts = [plain(space, start) for start in (best.centre, *starts)]
                 search.leave(best, [arm(i, start) for start in starts])
             if search.worth(turn.near, goal):
                 for one in search.arms[: turn.combinations]:
@@ -192,55 +192,6 @@ def refine(
         if search.kept:  # the rounds were cut short while the best one rested
             search.focus(space, parts[-1], len(search.arms), last=True)
     return [search.best or predicted for search, predicted in zip(searches, fallback, strict=True)]
-
-
-def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], count: int) -> list[Floats]:
-    """The ``count`` likeliest encoded vectors of one shape, likeliest first: scalars as predicted, classes combined.
-
-    Vectors that differ only in parameters that do not matter there count once.
-    """
-    beams: list[tuple[float, list[float]]] = [(0.0, [])]
-    for parameter, values in zip(space, inferred, strict=True):
-        if parameter.classes:
-            logs = np.log(np.maximum(values, 1e-12))
-            beams = [(total + logs[k], [*head, float(k)]) for total, head in beams for k in range(parameter.classes)]
-            beams = sorted(beams, key=lambda beam: -beam[0])[: 4 * count]
-        else:
-            beams = [(total, [*head, float(values)]) for total, head in beams]
-    unique: dict[tuple[object, ...], Floats] = {}
-    for _, vector in beams:
-        meaning = space.canonical(space.decode(vector))
-        unique.setdefault(tuple(meaning.values()), np.array(vector))
-    return list(unique.values())[:count]
-
-
-def _surprise(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], centre: Floats) -> float:
-    """Minus the logarithm of the probability that is inferred for the choices that matter at a point."""
-    active = set(space.active(space.decode(centre)))
-    chances = [
-        inferred[i][int(centre[i])]
-        for i, parameter in enumerate(space)
-        if parameter.classes and parameter.name in active
-    ]
-    return -float(np.log(np.maximum(chances, _UNLIKELY)).sum())
-
-
-def _plain(space: ParameterSpace, centre: Floats) -> Floats:
-    """The same choices, and all scalars at their defaults."""
-    scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
-    return np.where(scalars, space.encode(space.defaults), centre)
-
-
-def _others(space: ParameterSpace, centre: Floats) -> list[Floats]:
-    """The vectors that differ from one in a single choice that matters there."""
-    active = set(space.active(space.decode(centre)))
-    vectors = []
-    for column, parameter in enumerate(space):
-        for k in range(parameter.classes if parameter.name in active else 0):
-            if k != centre[column]:
-                vectors.append(centre.copy())
-                vectors[-1][column] = k
-    return vectors
 
 
 def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search, part: slice) -> Iterator[Floats]:
