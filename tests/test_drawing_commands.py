@@ -26,7 +26,7 @@ def runs(tmp_path_factory):
         path.rename(folder / "few" / path.name)
     (folder / "few" / "broken.png").write_bytes(b"nothing")
     settings = ("--samples", 200, "--epochs", 2, "--refine", "off", "--workers", 1, "--json")
-    found = run("fit", V1, folder / "few", "--out", folder / "001", *settings)
+    found = run("fit", V1, folder / "few", "--out", folder / "001", "--fidelity", 0.002, *settings)
     run("fit", V1, folder / "few", "--out", folder / "002", "--from", folder / "001", "--fidelity", 0.9, *settings)
     return folder, found
 
@@ -35,7 +35,8 @@ def test_fit_says_by_what_drawings_are_judged(runs):
     _, found = runs
     assert found["references"] == 4 and found["metric"]["name"] == "1 - VIF"
     assert [Path(path).name for path in found["skipped"]] == ["broken.png"]
-    assert all(result["compatible"] == (result["distance"] <= 0.95) for result in found["results"].values())
+    assert found["metric"]["threshold"] == 0.998
+    assert all(result["compatible"] == (result["distance"] <= 0.998) for result in found["results"].values())
 
 
 def test_report_and_compare(runs):
