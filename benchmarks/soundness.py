@@ -65,12 +65,12 @@ def examine(path: str, count: int, seed: int, workers: int | None) -> int:
 
 
 def _cpu_seconds(procedure: Procedure, parameters: Parameters) -> float:
-    """What one shape costs this process, mesh included: the least of several tries, because other programs disturb."""
+    """What one shape costs its thread, mesh included: the least of several tries, because other programs disturb."""
     spent = []
     for _ in range(TRIES):
-        before = time.process_time()
+        before = time.thread_time()
         procedure(**parameters)
-        spent.append(time.process_time() - before)
+        spent.append(time.thread_time() - before)
     return min(spent)
 
 

@@ -76,7 +76,7 @@ def main() -> None:
     parser.add_argument("--versions", nargs="+", default=["v1", "v2", "v3", "v4", "v5"])
     parser.add_argument("--refine", default="thorough", choices=["off", "quick", "thorough"])
     parser.add_argument("--samples", type=int, default=3000)
-    parser.add_argument("--epochs", type=int, default=15)
+    parser.add_argument("--epochs", type=int, default=30)
     parser.add_argument("--workers", type=int)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--no-blind", action="store_true", help="leave out the blind search, half of the time")

@@ -155,3 +155,29 @@ def test_a_file_that_vanished_is_an_error_of_the_procedure(part):
     part.path.unlink()
     with pytest.raises(sw.ProcedureError, match="no such file"):
         build_all(part, vectors("none"), workers=1, limits=LIMITS)
+
+
+@pytest.mark.skipif(
+    not hasattr(os, "sched_getaffinity"), reason="this system cannot tell which cores a process may use"
+)
+def test_a_worker_may_use_all_cores_although_it_loads_on_one(tmp_path):
+    path = tmp_path / "model.py"
+    path.write_text(
+        textwrap.dedent(
+            """
+            import os
+            from typing import Annotated
+            from shapewright import Range, procedure
+            from shapewright.modelling.solids import box
+
+            LOADED = len(os.sched_getaffinity(0))
+
+            @procedure
+            def part(size: Annotated[float, Range(0.5, 1.0, steps=3)] = 0.5):
+                return box((1, LOADED, len(os.sched_getaffinity(0))))
+            """
+        )
+    )
+    with Workers(sw.load_procedure(path), 1) as crew:
+        (built,) = crew.build([{"size": 0.5}])
+    assert built.shape.extent.tolist() == [1, 1, len(os.sched_getaffinity(0))]

@@ -8,7 +8,7 @@ import pickle
 import signal
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from multiprocessing.connection import Client, Connection
 from pathlib import Path
 
@@ -22,20 +22,41 @@ _ANSWER_WITHIN = 0.25
 
 def serve(connection: Connection) -> None:
     """Answer requests until the other side hangs up."""
-    target, search_path, names = pickle.loads(connection.recv_bytes())
-    limits: Limits = connection.recv()
-    sys.path[:] = search_path
-    try:
-        procedure = load_procedure(target) if isinstance(target, str) else target
-    except ProcedureError as error:
-        connection.send(Failure("raised", str(error)))
-        return
+    with _one_core():
+        target, search_path, names = pickle.loads(connection.recv_bytes())
+        limits: Limits = connection.recv()
+        sys.path[:] = search_path
+        try:
+            procedure = load_procedure(target) if isinstance(target, str) else target
+        except ProcedureError as error:
+            connection.send(Failure("raised", str(error)))
+            return
     limit_memory(limits.memory_mb)
     connection.send("ready")
     with _naming(names):
         while True:
             requests: list[Parameters] = connection.recv()
             connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
+
+
+@contextlib.contextmanager
+def _one_core() -> Iterator[None]:
+    """Libraries that are loaded here start threads for one core only.
+
+    manifold3d's would spin between its booleans, on the cores that the other workers build on.
+    """
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    cores = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {sorted(cores)[os.getpid() % len(cores)]})
+    try:
+        yield
+        if "manifold3d" in sys.modules:
+            cube = sys.modules["manifold3d"].Manifold.cube((1.0, 1.0, 1.0))
+            (cube + cube.translate((0.5, 0.5, 0.5))).status()  # its threads are started by the first boolean
+    finally:
+        os.sched_setaffinity(0, cores)
 
 
 def _naming(names: str) -> contextlib.AbstractContextManager[None]:
