@@ -133,6 +133,7 @@ def test_the_collection_by_keyboard(visit: Visit, fitted: dict[str, Any]) -> Non
     assert second in fitted["collection"]["groups"][0]["members"] and second != first
     page.keyboard.press("Enter")
     page.wait_for_selector(f".inspector h2[title='{second}']")
+    page.wait_for_timeout(300)  # its keys are listened to once it has been painted
     page.keyboard.press("ArrowLeft")
     page.wait_for_selector(f".inspector h2[title='{first}']")
     page.keyboard.press("?")
