@@ -19,15 +19,16 @@ def run(*arguments):
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
-    """Two runs of the first version on a few of the bundled drawings."""
+    """Runs of the first version on a few of the bundled drawings, judged as by default, strictly, and leniently."""
     folder = tmp_path_factory.mktemp("runs")
     for path in drawings.write(folder / "all")[:4]:
         (folder / "few").mkdir(exist_ok=True)
         path.rename(folder / "few" / path.name)
     (folder / "few" / "broken.png").write_bytes(b"nothing")
     settings = ("--samples", 200, "--epochs", 2, "--refine", "off", "--workers", 1, "--json")
-    found = run("fit", V1, folder / "few", "--out", folder / "001", "--fidelity", 0.002, *settings)
+    found = run("fit", V1, folder / "few", "--out", folder / "001", *settings)
     run("fit", V1, folder / "few", "--out", folder / "002", "--from", folder / "001", "--fidelity", 0.9, *settings)
+    run("fit", V1, folder / "few", "--out", folder / "003", "--from", folder / "001", "--fidelity", 0.002, *settings)
     return folder, found
 
 
@@ -35,15 +36,14 @@ def test_fit_says_by_what_drawings_are_judged(runs):
     _, found = runs
     assert found["references"] == 4 and found["metric"]["name"] == "1 - VIF"
     assert [Path(path).name for path in found["skipped"]] == ["broken.png"]
-    assert found["metric"]["threshold"] == 0.998
-    assert all(result["compatible"] == (result["distance"] <= 0.998) for result in found["results"].values())
+    assert all(result["compatible"] == (result["distance"] <= 0.95) for result in found["results"].values())
 
 
 def test_report_and_compare(runs):
     folder, _ = runs
     page = Path(run("report", folder / "002", "--json")["report"]).read_text()
     assert "visual information fidelity at least 0.9" in page
-    moves = run("compare", folder / "001", folder / "002", "--json")
+    moves = run("compare", folder / "003", folder / "002", "--json")
     assert not moves["gained"] and moves["lost"]
 
 
