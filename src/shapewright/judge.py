@@ -85,8 +85,8 @@ class Judge:
     def measure(self, rows: Sequence[int] | Ints, fields: Sequence[int] | Ints | None = None) -> Measure:
         """What a search for some references goes by; it gets replicas with their references' places among ``rows``.
 
-        The vectors' sums of absolute values are the costs of ``search_costs``, smoothed. fields: the light field to go
-        by for each, the first by default.
+        The vectors' sums of absolute values are about the costs of ``search_costs``, and what differs in depth. fields:
+        the light field to go by for each, the first by default.
         """
 
         def residual(pair: tuple[int, Shape]) -> Floats | None:

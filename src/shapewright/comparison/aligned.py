@@ -32,13 +32,14 @@ class AlignedCost:
     def __init__(self, reference: Mesh, field: int = 0) -> None:
         self._axes = _AXES[field]
         normal = reference.normalised()
-        self._light, self._depths = self._coefficients(normal), _depths(normal)
+        values = self._coefficients(normal)
+        self._whole, self._exact = weighted(quantise(values), 4).astype(np.int64), levels(values)
+        self._depths = _depths(normal)
 
     def __call__(self, replica: Mesh) -> float:
         """The raw distance, infinite for a replica that no view shows."""
         values = self._coefficients(replica.normalised())
-        apart = weighted(quantise(values), 4).astype(np.int64) - weighted(quantise(self._light), 4)
-        return float(np.abs(apart).sum()) if values.any() else np.inf
+        return float(np.abs(weighted(quantise(values), 4) - self._whole).sum()) if values.any() else np.inf
 
     def residual(self, replica: Mesh) -> Floats | None:
         """(1494,): what a search makes small, the sum of absolute values: weighted differences, before quantisation.
@@ -50,7 +51,7 @@ class AlignedCost:
         values = self._coefficients(normal)
         if not values.any():
             return None
-        light = (levels(values) - levels(self._light)) * WEIGHTS
+        light = (levels(values) - self._exact) * WEIGHTS
         return np.concatenate([light.ravel(), (_depths(normal) - self._depths) * (_DEPTH / len(self._depths))])
 
     def _coefficients(self, normal: Mesh) -> Floats:

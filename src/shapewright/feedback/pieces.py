@@ -28,6 +28,7 @@ Kind = Literal[
 ]
 WIDER_TOP, WIDER_FOOT = 0.55, 0.55
 """Part of the width that the narrow end of a frustum or foot has."""
+SPOKES: tuple[Kind, ...] = ("spokes", "sloping spokes")
 SLOPE = (0.4, 0.5)
 """Of sloping spokes: the height of their inner ends, of the whole; that of the outer ends, of the inner ones'."""
 _THIN, _LONG = 0.3, 2.5
@@ -76,7 +77,7 @@ class Piece:
         width, height, depth = self.size
         if self.kind.startswith("slats"):
             return "rails" if self.kind == "slats y" else "spindles"
-        if self.kind in ("spokes", "sloping spokes"):
+        if self.kind in SPOKES:
             return "spokes"
         several = "s" if any(self.mirrored) else ""
         return _noun(self.kind, self.thin, height / max(width, depth), width >= depth) + several

@@ -9,14 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from shapewright.feedback.edit import NewParameter
-from shapewright.feedback.pieces import SLOPE, WIDER_FOOT, WIDER_TOP, Kind, Piece
+from shapewright.feedback.pieces import SLOPE, SPOKES, WIDER_FOOT, WIDER_TOP, Kind, Piece
 from shapewright.feedback.relations import NEW, WHOLE, Along, Frames, equal_sizes
 
 LINE = 116  # characters, indented by four
 _CORNERS = (("left", "bottom", "back"), ("right", "top", "front"))
 _SIDES = ("width", "height", "depth")
 _PLACES = ("x", "level", "z")
-_SPOKES = ("spokes", "sloping spokes")
 _CALLS: dict[Kind, str] = {
     "box": "box({size}, {at})",
     "cylinder": "cylinder({size}, {at})",
@@ -114,7 +113,7 @@ def piece_lines(
         part = float(np.median([piece.gap * piece.count for piece in several]))
         across = sizes["xyz".index(kind[-1])]
         gap = f"{number(part)} * {_operand(across)} / {count}"
-    if kind in _SPOKES:
+    if kind in SPOKES:
         asked.append(Quantity(f"{name}_breadth", tuple(piece.breadth for piece in several)))
         asked.append(Quantity(f"{name}_count", tuple(float(piece.count) for piece in several), whole=True))
         lines += _spokes(kind, sizes, [quantity.name for quantity in asked[-2:]], _turn(several))
@@ -130,7 +129,7 @@ def piece_lines(
         lines.append(f"at = {at}")
         line = f"{name} = {_call(kind, size, sizes, 'at', gap, count)}{copies}.label({quoted(label)})"
     lines.append(line)
-    used = "box" if kind in _SPOKES else _call(kind, size, sizes, at, gap, count).split("(")[0]
+    used = "box" if kind in SPOKES else _call(kind, size, sizes, at, gap, count).split("(")[0]
     # Corners that nothing needs, or that are there already, are not asked of the frame.
     anew = [axis for axis in range(3) if along[axis].ends]
     text = "\n".join(lines)
@@ -182,7 +181,7 @@ def _operand(size: str) -> str:
 
 
 def _call(kind: Kind, size: str, sizes: Sequence[str], at: str, gap: str, count: str) -> str:
-    if kind in _SPOKES:
+    if kind in SPOKES:
         return f"around.translate({at})"
     if kind.startswith("slats"):
         return f'slats({size}, {count}, {gap}, "{kind[-1]}", {at})'

@@ -176,9 +176,8 @@ class Box(NamedTuple):
             raise ValueError(f"ends: size={size:.4g} along {axis} must lie in 0..{self.size[index]:.4g}")
         near = self._between("ends", index, sign, 0.0, size)
         far = self._between("ends", index, -sign, 0.0, size)
-        return near._replace(facing=_with(self.facing, index, -sign)), far._replace(
-            facing=_with(self.facing, index, sign)
-        )
+        inwards, outwards = _with(self.facing, index, -sign), _with(self.facing, index, sign)
+        return near._replace(facing=inwards), far._replace(facing=outwards)
 
     def corners(self, size: float | tuple[float, float], axis: Axis = "y") -> list[Box]:
         """The four corners along an axis, such as legs; ``size``: of the section, one number or two.

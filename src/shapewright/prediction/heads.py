@@ -78,15 +78,18 @@ def _layer(mlp: nn.Sequential, index: int) -> nn.Linear:
     return layer
 
 
+def _joined(layers: Sequence[nn.Linear]) -> tuple[Tensor, Tensor]:
+    """Weight and bias of the layer that gives what all of these give, one after the other."""
+    return torch.cat([layer.weight for layer in layers]), torch.cat([layer.bias for layer in layers])
+
+
 def _hidden(features: Tensor, mlps: Sequence[nn.Sequential]) -> Tensor:
     """(B, M, W): what the last layers of M MLPs are given."""
-    layers = [_layer(mlp, 0) for mlp in mlps]
-    weight, bias = torch.cat([layer.weight for layer in layers]), torch.cat([layer.bias for layer in layers])
+    weight, bias = _joined([_layer(mlp, 0) for mlp in mlps])
     return functional.gelu(functional.linear(features, weight, bias)).reshape(len(features), len(mlps), -1)
 
 
 def _numbers(features: Tensor, mlps: Sequence[nn.Sequential]) -> Tensor:
     """(B, M): the answers of MLPs that give one number each."""
-    layers = [_layer(mlp, -1) for mlp in mlps]
-    weight, bias = torch.cat([layer.weight for layer in layers]), torch.cat([layer.bias for layer in layers])
+    weight, bias = _joined([_layer(mlp, -1) for mlp in mlps])
     return (_hidden(features, mlps) * weight).sum(dim=2) + bias
