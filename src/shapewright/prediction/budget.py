@@ -75,23 +75,21 @@ def _exact(probe: float, times: int = 1) -> tuple[Round, ...]:
     return (Round(1, afresh=True, probe=probe, both=True), Round(1, 3)) * times
 
 
-def _others(rivals: float) -> tuple[Round, ...]:
-    """Other choices tried with the scalars that were found, as long as they cost hardly more than the best one."""
-    return (
-        Round(24, other="choice"),
-        *(Round(4, rival=2.0 * rivals), Round(4, 3, rival=2.0 * rivals), Round(3, 2, 2, rival=1.3 * rivals)),
-        Round(2, afresh=True, both=True, probe=0.05, rival=rivals),
-        *(Round(2, 3, rival=rivals),) * 2,
-        Round(2, 2, 4, back=True),
-    )
-
-
+_OTHERS = (
+    Round(24, other="choice"),
+    *(Round(4, rival=4.0), Round(4, 3, rival=4.0), Round(3, 2, 2, rival=2.5)),
+    Round(2, afresh=True, both=True, probe=0.05, rival=2.0),
+    *(Round(2, 3, rival=2.0),) * 2,
+    Round(2, 2, 4, back=True),
+)
+"""Other choices tried with the scalars that were found; most soon cost far more than the best one."""
 QUICK = Budget((Round(8), Round(3), Round(2, 2, 2), *_exact(0.05), *(Round(1, 2, 4, near=1.4),) * 8))
 THOROUGH = Budget(
     (
         *(Round(24), Round(8), Round(6, 2, 4), Round(4, 2, 4), Round(3, 2, 6), *(Round(2, 2, 8),) * 4),
-        *(*_exact(0.06, 3), *_others(1.7)),
-        *(*_exact(0.06, 2), *_others(1.7)),
-        *(*_exact(0.04, 2), *_exact(0.025, 4), *_exact(0.015, 3)),
+        *(*_exact(0.06, 3), *_OTHERS),
+        *(*_exact(0.06, 2), *_OTHERS),
+        *(*_exact(0.04, 2), *_exact(0.025, 2), *_OTHERS),
+        *(*_exact(0.025, 2), *_exact(0.015, 3)),
     )
 )
