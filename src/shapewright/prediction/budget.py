@@ -20,8 +20,8 @@ class Round:
     the scalars are each moved a little again, because the model has aged; by ``probe``, encoded, and to ``both`` sides
     where the model is to be exact enough for the search to end at the least cost. part: which of the parts of the
     residuals it goes by; models are kept where that changes, and combinations beyond those that take part are dropped.
-    other: instead of all combinations those take part that differ from the best one in one choice ("choice"), or these
-    and its own with all scalars at their defaults ("plain"); the best one itself rests until the last part, or until a
+    other: instead of all combinations those take part that differ from the best one in one choice ("choice"), these and
+    the likeliest ("likely"), or these and its own with all scalars at their defaults ("plain"); the best one itself rests until the last part, or until a
     round that has it ``back``. rival: a combination takes part only while its cost is at most so many times the best's.
     """
 
@@ -33,7 +33,7 @@ class Round:
     probe: float = _PROBE
     both: bool = False
     part: int = 0
-    other: Literal["choice", "plain"] | None = None
+    other: Literal["choice", "likely", "plain"] | None = None
     back: bool = False
     rival: float = np.inf
 
@@ -76,7 +76,7 @@ def _exact(probe: float, times: int = 1) -> tuple[Round, ...]:
 
 
 _OTHERS = (
-    Round(24, other="choice"),
+    Round(24, other="likely"),
     *(Round(4, rival=4.0), Round(4, 3, rival=4.0), Round(3, 2, 2, rival=2.5)),
     Round(2, afresh=True, both=True, probe=0.05, rival=2.0),
     *(Round(2, 3, rival=2.0),) * 2,

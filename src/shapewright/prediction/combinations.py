@@ -53,7 +53,7 @@ def plain(space: ParameterSpace, centre: Floats) -> Floats:
 def others(
     space: ParameterSpace, centre: Floats, inferred: Sequence[NDArray[np.float32]] | None = None
 ) -> list[Floats]:
-    """The vectors that differ from one in a single choice that matters there, and those of the likeliest choices.
+    """The vectors that differ from one in a single choice that matters there, then those of the likeliest choices.
 
     inferred: of what is likely; without it there are none of these.
     """
@@ -66,7 +66,7 @@ def others(
                 vectors[-1][column] = k
     if inferred is not None:
         scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
-        vectors = [*(np.where(scalars, centre, each) for each in likeliest(space, inferred, _LIKELIEST)), *vectors]
+        vectors += [np.where(scalars, centre, each) for each in likeliest(space, inferred, _LIKELIEST)]
     unique = {_meaning(space, centre): centre}
     for each in vectors:
         unique.setdefault(_meaning(space, each), each)
