@@ -21,8 +21,9 @@ class Round:
     where the model is to be exact enough for the search to end at the least cost. part: which of the parts of the
     residuals it goes by; models are kept where that changes, and combinations beyond those that take part are dropped.
     other: instead of all combinations those take part that differ from the best one in one choice ("choice"), these and
-    the likeliest ("likely"), or these and its own with all scalars at their defaults ("plain"); the best one itself rests until the last part, or until a
-    round that has it ``back``. rival: a combination takes part only while its cost is at most so many times the best's.
+    the likeliest ("likely"), or these and its own with all scalars at their defaults ("plain"); the best one itself
+    rests until the last part, or until a round that has it ``back``. rival: a combination takes part only while its
+    cost is at most so many times the best's.
     """
 
     combinations: int
