@@ -42,7 +42,7 @@ class AlignedCost:
         return float(np.abs(weighted(quantise(values), 4) - self._whole).sum()) if values.any() else np.inf
 
     def residual(self, replica: Mesh) -> Floats | None:
-        """(1494,): what a search makes small, the sum of absolute values: weighted differences, before quantisation.
+        """(2774,): what a search makes small, the sum of absolute values: weighted differences, before quantisation.
 
         They vary smoothly with the replica's parameters: 470 of the light field, then those of depth. None for a
         replica that no view shows.
@@ -61,8 +61,8 @@ class AlignedCost:
 
 
 def _depths(normal: Mesh) -> Floats:
-    """(1024,): small pictures of a normalised shape's depth, 0 to 1."""
-    pictures = render([normal], _DEPTH_VIEWS, size=16, supersample=4, threads=1)
+    """(2304,): small pictures of a normalised shape's depth, 0 to 1."""
+    pictures = render([normal], _DEPTH_VIEWS, size=24, supersample=3, threads=1)
     return pictures[0, :, 1].ravel() / 255.0
 
 
