@@ -19,6 +19,7 @@ from shapewright.feedback.proposals import narrowed
 from shapewright.feedback.trial import (
     ENOUGH,
     GLANCE,
+    PEEK,
     PROMISING,
     SEARCH,
     Start,
@@ -39,8 +40,10 @@ Known = Sequence[tuple[Parameters, Mesh]]
 _GLANCED = 20  # proposals of which shapes are built, at most
 _SAMPLED = 12  # misfits that these are built for
 _LEADING, _LED = 8, 4  # proposals that are searched with before one is chosen, and misfits of each
-_CONFIRMED = 6  # proposals that are tried on all misfits, at most
+_CONFIRMED = 5  # proposals that are tried on all misfits, at most
 _SHARES = (0.3, 0.35)  # of the evaluations left: for the leading proposals; for each that is tried on all misfits
+_MIXED = 0.15  # of these, for the choices that suit others
+_LITTLE = 0.05  # of the most that is promised, that is not worth a trial
 _LEAST = 24  # evaluations that a search is worth beginning with
 _CLOSE = 0.4  # of the threshold: how near longer Ranges should come, so that they are long enough
 
@@ -91,8 +94,11 @@ def selected(
         leading = sorted(leading, key=lambda each: -each.promise)
         found, left = [], (1.0 - _SHARES[0]) * evaluations
         for each in leading[:_CONFIRMED]:
-            trial = _confirmed(crew, procedure, each, misfits, judge, int(_SHARES[1] * left))
-            left -= int(_SHARES[1] * left)
+            if each.promise <= _LITTLE * leading[0].promise:
+                break
+            allowed = int(_SHARES[1] * left)
+            left -= allowed
+            trial = _confirmed(crew, procedure, each, misfits, judge, allowed)
             if trial.compatible:
                 ranges = narrowed(each.proposal, procedure.space, [trial.parameters[row] for row in trial.compatible])
                 found.append(Tried(each.proposal, ranges, "", trial))
@@ -110,6 +116,8 @@ def _glanced(
         with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
             if unchanged(new, known):
                 starts = begun(new, {m.row: idea.candidates(m) for m in some}, judge)
+                stands = Trial.of(starts, judge.settings.threshold).standing({m.row: m.replica for m in some}).distances
+                starts = {row: starts[row] for row in stands}
                 yield _Glanced(idea, starts, _promise(idea, misfits, {m.row: _way(m, starts) for m in some}))
     except (EditError, ProcedureError):
         return
@@ -173,21 +181,24 @@ def _confirmed(
         rest = {m.row: idea.candidates(m) for m in misfits if m.row not in glanced.starts}
         starts = {**glanced.starts, **begun(new, rest, judge)}
         trial = Trial.of(starts, judge.settings.threshold).standing(before)
-        left, held = evaluations, -1
-        while left >= _LEAST and held < len(trial.compatible):
-            held = len(trial.compatible)
-            mixed = mixtures(space, trial, {row: start.parameters for row, start in starts.items()})
-            mixed = _afforded(mixed, left // 2)
-            left -= sum(len(several) for several in mixed.values())
-            trial = trial.joined(Trial.of(begun(new, mixed, judge), trial.threshold)).standing(before)
+        mixed = mixtures(space, trial, {row: start.parameters for row, start in starts.items()})
+        mixed = _afforded(mixed, int(_MIXED * evaluations) if idea.rule else 0)
+        trial = trial.joined(Trial.of(begun(new, mixed, judge), trial.threshold)).standing(before)
+        left = evaluations - sum(len(several) for several in mixed.values())
+        for budget, only in (
+            (PEEK, [name for name in space.names if name not in procedure.space.names]),
+            (SEARCH, None),
+        ):
+            free = scalars if only is None else len(only)
+            least = min(budget.evaluations(free), _LEAST)
             wanting = [row for row in trial.distances if aim < trial.distances[row] / trial.threshold <= PROMISING]
             wanting = sorted(wanting, key=lambda row: (row in trial.compatible, trial.distances[row]))
-            wanting = wanting[: max(left // _LEAST, 0)]
-            if wanting:
-                budget = SEARCH.within(left / len(wanting), scalars)
-                left -= len(wanting) * budget.evaluations(scalars)
+            wanting = wanting[: left // least]
+            if wanting and (only is None or only):
+                within = budget.within(left / len(wanting), free)
+                left -= len(wanting) * within.evaluations(free)
                 begin = {row: trial.parameters[row] for row in wanting}
-                found = tried(new, begin, judge, [budget], judge.settings.seed, ENOUGH * aim)
+                found = tried(new, begin, judge, [within], judge.settings.seed, ENOUGH * aim, only)
                 trial = trial.joined(found).standing(before)
     return trial
 

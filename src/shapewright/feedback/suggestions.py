@@ -25,9 +25,9 @@ from shapewright.progress import Stages
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
 
-EVALUATIONS = 2_400
+EVALUATIONS = 1_500
 """Shapes built for all trials together, about."""
-_STUDIED = 20  # misfits that hypotheses are made for, at most
+_STUDIED = 14  # misfits that hypotheses are made for, at most
 _FEW = 0.12  # share of these, of which a proposal must be for more to be tried
 _KNOWN = 8  # shapes that no change may alter
 _SAMPLES = 40

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -22,6 +22,7 @@ from shapewright.procedure import Procedure, load_procedure
 from shapewright.shapes import Mesh
 
 GLANCE = Budget((Round(2), Round(1), *(Round(1, 2, 4),) * 2))
+PEEK = Budget((Round(1), Round(1), *(Round(1, 2, 2),) * 2))
 SEARCH = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9), patience=3)
 PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
 ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
@@ -127,11 +128,13 @@ def tried(
     budgets: Sequence[Budget],
     seed: int = 0,
     enough: float = ENOUGH,
+    only: Collection[str] | None = None,
 ) -> Trial:
     """Search for each reference (by index) from the parameters given, and judge what is found.
 
     budgets: one after the other, the later ones only for references that come near; none to judge the parameters
-    themselves, moved into the procedure's Ranges. enough: of the threshold, at which a search ends.
+    themselves, moved into the procedure's Ranges. enough: of the threshold, at which a search ends. only: names of the
+    scalars that it may change, by default all.
     """
     best: dict[int, _Found] = {}
     space = crew.procedure.space
@@ -142,7 +145,7 @@ def tried(
         if rows:
             fields = [best[row].field if row in best else 0 for row in rows]
             measure, goal = judge.measure(rows, fields), enough * judge.goal
-            vectors = _refined(space, crew, measure, vectors, budget, goal, seed + number)
+            vectors = _refined(space, crew, measure, vectors, budget, goal, seed + number, only)
             _judge(best, rows, vectors, crew, judge)
             rows = [row for row in rows if row in best and _worth_more(best[row].distance, judge)]
             vectors = [best[row].parameters for row in rows]
@@ -253,7 +256,10 @@ def _refined(
     budget: Budget,
     goal: float,
     seed: int,
+    only: Collection[str] | None,
 ) -> list[Parameters]:
+    encoded = np.array([space.encode(values) for values in vectors])
+    fixed = np.array([only is not None and name not in only for name in space.names])
     return refine(
         space,
         _as_inferred(space, vectors),
@@ -261,6 +267,7 @@ def _refined(
         measure,
         budget,
         seed,
+        within=(np.where(fixed, encoded, 0.0), np.where(fixed, encoded, 1.0)),
         spread=_SPREAD,
         enough=goal,
     )
