@@ -19,6 +19,7 @@ from shapewright.feedback.proposals import narrowed
 from shapewright.feedback.trial import (
     ENOUGH,
     GLANCE,
+    LOOK,
     PEEK,
     PROMISING,
     SEARCH,
@@ -181,26 +182,29 @@ def _confirmed(
         rest = {m.row: idea.candidates(m) for m in misfits if m.row not in glanced.starts}
         starts = {**glanced.starts, **begun(new, rest, judge)}
         trial = Trial.of(starts, judge.settings.threshold).standing(before)
-        mixed = mixtures(space, trial, {row: start.parameters for row, start in starts.items()})
-        mixed = _afforded(mixed, int(_MIXED * evaluations) if idea.rule else 0)
-        trial = trial.joined(Trial.of(begun(new, mixed, judge), trial.threshold)).standing(before)
-        left = evaluations - sum(len(several) for several in mixed.values())
-        for budget, only in (
-            (PEEK, [name for name in space.names if name not in procedure.space.names]),
-            (SEARCH, None),
-        ):
+        fresh = [name for name in space.names if name not in procedure.space.names]
+        left, held = evaluations, 0
+        for turn, (budget, only) in enumerate(((PEEK, fresh), (SEARCH, None), (LOOK, None))):
+            if idea.rule and len(trial.compatible) > held:
+                held = len(trial.compatible)
+                mixed = _afforded(mixtures(space, trial, trial.parameters), int(_MIXED * left))
+                left -= sum(len(several) for several in mixed.values())
+                trial = trial.joined(Trial.of(begun(new, mixed, judge), trial.threshold)).standing(before)
             free = scalars if only is None else len(only)
-            least = min(budget.evaluations(free), _LEAST)
-            wanting = [row for row in trial.distances if aim < trial.distances[row] / trial.threshold <= PROMISING]
-            wanting = sorted(wanting, key=lambda row: (row in trial.compatible, trial.distances[row]))
-            wanting = wanting[: left // least]
-            if wanting and (only is None or only):
-                within = budget.within(left / len(wanting), free)
-                left -= len(wanting) * within.evaluations(free)
-                begin = {row: trial.parameters[row] for row in wanting}
-                found = tried(new, begin, judge, [within], judge.settings.seed, ENOUGH * aim, only)
+            rows = _near(trial, aim)[: left // min(budget.evaluations(free), _LEAST)]
+            if rows and free:
+                within = budget.within(left / len(rows), free)
+                left -= len(rows) * within.evaluations(free)
+                begin, seed = {row: trial.parameters[row] for row in rows}, judge.settings.seed + turn
+                found = tried(new, begin, judge, [within], seed, ENOUGH * aim, only)
                 trial = trial.joined(found).standing(before)
     return trial
+
+
+def _near(trial: Trial, aim: float) -> list[int]:
+    """References that are worth a search: those that are not compatible first, the nearest first."""
+    rows = [row for row in trial.distances if aim < trial.distances[row] / trial.threshold <= PROMISING]
+    return sorted(rows, key=lambda row: (row in trial.compatible, trial.distances[row]))
 
 
 def _afforded(mixed: Mapping[int, list[Parameters]], most: int) -> dict[int, list[Parameters]]:

@@ -23,6 +23,7 @@ from shapewright.shapes import Mesh
 
 GLANCE = Budget((Round(2), Round(1), *(Round(1, 2, 4),) * 2))
 PEEK = Budget((Round(1), Round(1), *(Round(1, 2, 2),) * 2))
+LOOK = Budget((Round(6), Round(2), *(Round(1, 2, 6),) * 6), patience=3)
 SEARCH = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9), patience=3)
 PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
 ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
