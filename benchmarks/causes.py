@@ -16,7 +16,7 @@ import json
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -39,12 +39,16 @@ Of = Callable[[Parameters], bool]
 
 @dataclass(frozen=True)
 class Case:
-    """What is done to the procedure's text, or to what is found; which references it concerns; what it should say."""
+    """What is done to the procedure's text, or to what is found; which references it concerns; what it should say.
+
+    reformed: what is done to the text of the procedure that builds the references.
+    """
 
     name: str
     right: tuple[str, ...]
     concerns: Of = lambda p: True
     edits: tuple[tuple[str, str], ...] = ()
+    reformed: tuple[tuple[str, str], ...] = ()
     spoil: str = ""
     foreign: bool = False
 
@@ -73,6 +77,17 @@ CASES = (
         ("wrong form",),
         lambda p: bool(p["round_top"]),
         (("    round_top: bool = False,\n", ""), ("    thick =", "    round_top = False\n    thick =")),
+    ),
+    Case(
+        "no leaning legs",
+        ("wrong form",),
+        lambda p: p["legs"] == "basic",
+        reformed=(("at=(x, 0, z)).label", "at=(x, 0, z)).path((0.8 * side - x, 0, 0.8 * side - z), (0, 0, 0)).label"),),
+    ),
+    Case(
+        "no sloping tops",
+        ("wrong form",),
+        reformed=(('.label("top")', '.rotate(20, "z", about=(0, height / 2, 0)).label("top")'),),
     ),
     Case("height to 0.65", ("out of range",), lambda p: p["height"] > 0.7, cut("height:", "Range(0.5, 0.65)")),
     Case("breadth to 0.55", ("out of range",), lambda p: p["breadth"] > 0.6, cut("breadth:", "Range(0.3, 0.55)")),
@@ -104,9 +119,9 @@ def foreign(count: int, seed: int) -> Iterator[tuple[str, Solid]]:
             yield f"bottle {i}", cylinder((0.4 * b, 1.0 * a, 0.4 * b)) | cylinder((0.14 * c, 1.6 * a, 0.14 * c))
 
 
-def collection(case: Case, count: int, seed: int) -> tuple[sw.Collection, dict[str, Parameters]]:
+def collection(case: Case, folder: Path, count: int, seed: int) -> tuple[sw.Collection, dict[str, Parameters]]:
     """References that the case concerns, and half as many of any kind."""
-    whole = sw.load_procedure(WHOLE)
+    whole = changed(case.reformed, folder / "whole.py")
     vectors = whole.space.sample(40 * count, seed=seed)
     some = [vector for vector in vectors if case.concerns(vector)][:count]
     rest = [vector for vector in vectors if vector not in some][: count // 2]
@@ -117,12 +132,12 @@ def collection(case: Case, count: int, seed: int) -> tuple[sw.Collection, dict[s
     return sw.Collection.of(shapes), truth
 
 
-def spoilt(case: Case, folder: Path) -> sw.Procedure:
+def changed(edits: Iterable[tuple[str, str]], path: Path) -> sw.Procedure:
+    """The whole procedure with changes of its text."""
     text = WHOLE.read_text()
-    for before, after in case.edits:
+    for before, after in edits:
         assert before in text, before
         text = text.replace(before, after)
-    path = folder / f"{case.name.replace(' ', '_').replace('.', '')}.py"
     path.write_text(text)
     return sw.load_procedure(path)
 
@@ -193,9 +208,11 @@ def main() -> None:
     settings = sw.Settings(seed=arguments.seed, workers=arguments.workers)
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for case in (case for case in CASES if arguments.only in case.name):
-            procedure = spoilt(case, Path(folder))
-            references, truth = collection(case, arguments.count, arguments.seed)
+        for number, case in enumerate(case for case in CASES if arguments.only in case.name):
+            place = Path(folder) / str(number)
+            place.mkdir()
+            procedure = changed(case.edits, place / "procedure.py")
+            references, truth = collection(case, place, arguments.count, arguments.seed)
             if arguments.fit and not case.spoil:
                 iteration = replace(sw.fit(procedure, references, settings), predictor=None)
             else:
@@ -213,7 +230,7 @@ def main() -> None:
             right = sum(kinds[kind] for kind in case.right)
             others = ", ".join(f"{kind} {n}" for kind, n in kinds.most_common() if kind not in case.right)
             print(
-                f"{case.name:18} {len(concerned):3} incompatible  {case.right[0]:17} {right:3}   {others}"
+                f"{case.name:20} {len(concerned):3} incompatible  {case.right[0]:17} {right:3}   {others}"
                 f"   [{len(iteration.incompatible)} of {len(iteration)} explained in {seconds:.0f} s]",
                 flush=True,
             )

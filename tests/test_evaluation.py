@@ -6,7 +6,7 @@ import torch
 
 import shapewright as sw
 from shapewright import Range
-from shapewright.evaluation import variants
+from shapewright.evaluation import evaluate, variants
 from shapewright.modelling.solids import box
 from shapewright.parameters import ParameterSpace, Scalar
 from shapewright.prediction.dataset import make_dataset
@@ -50,6 +50,13 @@ def test_variants_are_all_combinations_of_what_is_compared():
     both = variants(settings, "both")
     assert [(v.views, v.cameras) for v in both][:3] == [(1, "fixed"), (1, "learned"), (2, "fixed")]
     assert len(both) == 8 and all(v.seed == 3 for v in both)
+
+
+def test_refinement_is_measured_on_as_many_held_out_samples_as_asked_for():
+    settings = sw.Settings(samples=60, epochs=1, image_size=16, workers=1)
+    (trial,) = evaluate(slab, [settings], refined=4)
+    assert trial.refined["s"]["rows"] == trial.refined["c"]["rows"] == 4 < trial.metrics["s"]["rows"]
+    assert trial.refined["s"]["mae"] < trial.metrics["s"]["mae"]
 
 
 def test_calibration_makes_the_mean_spread_right_and_leaves_values_alone():

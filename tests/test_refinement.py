@@ -10,7 +10,7 @@ from shapewright.building import Workers
 from shapewright.comparison.aligned import AlignedCost
 from shapewright.modelling.solids import box, cylinder
 from shapewright.prediction.budget import QUICK, THOROUGH, Budget, Round
-from shapewright.prediction.combinations import likeliest
+from shapewright.prediction.combinations import likeliest, others
 from shapewright.prediction.refinement import refine
 
 
@@ -140,6 +140,19 @@ def test_the_likeliest_vectors_come_in_order_and_mean_different_shapes():
     vectors = likeliest(space, [np.array([0.9, 0.1]), np.array([0.1, 0.2, 0.7]), np.array([0.4, 0.6])], 10)
     assert len(vectors) == 2 + 2 * 3
     assert vectors[0].tolist()[0] == 0 and vectors[0].tolist()[2] == 1
+
+
+def test_others_are_a_single_choice_away_or_the_likeliest_each_once():
+    space = sw.ParameterSpace(
+        (sw.Scalar("s", 0, 1, 0), sw.Choice("a", ("x", "y", "z"), "x"), sw.Choice("b", ("m", "n", "o"), "m"))
+    )
+    centre = np.array([0.25, 0.0, 0.0])
+    away = others(space, centre)
+    assert [tuple(v) for v in away] == [(0.25, 1, 0), (0.25, 2, 0), (0.25, 0, 1), (0.25, 0, 2)]
+    inferred = [np.float32(0.9), np.array([0.1, 0.3, 0.6]), np.array([0.1, 0.2, 0.7])]
+    known = [tuple(v) for v in others(space, centre, inferred)]
+    assert known == [*(tuple(v) for v in away), (0.25, 2, 2), (0.25, 1, 2), (0.25, 2, 1)]
+    assert [tuple(v) for v in others(space, np.array([0.25, 0.0, 1.0]), inferred)][4:] == [(0.25, 2, 2), (0.25, 1, 2)]
 
 
 def test_budgets_are_cut_to_what_there_is_time_for():

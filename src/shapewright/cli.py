@@ -163,6 +163,7 @@ def evaluate(
     views: Views = None,
     augment: Augment = False,
     refine: Refine = None,
+    refined: Annotated[int, typer.Option(min=1, help="Held-out samples that refinement is measured on.")] = 100,
     compare: Annotated[
         Literal["cameras", "views", "both"] | None,
         typer.Option(help="cameras: fixed against learned; views: 1, 2, 3 and 5 cameras; both: all combinations."),
@@ -182,7 +183,7 @@ def evaluate(
     found = []
     for variant in variants(settings, compare):
         with progress_bars(err) as listen:
-            trials = list(run_trials(author, [variant], range(seeds), listen))
+            trials = list(run_trials(author, [variant], range(seeds), listen, refined))
         seconds = [trial.seconds for trial in trials]
         record = {"cameras": variant.cameras, "views": variant.views, "parameters": summary(trials), "seconds": seconds}
         found.append(record)

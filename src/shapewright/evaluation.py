@@ -19,7 +19,7 @@ from shapewright.references import Collection
 from shapewright.settings import Settings
 
 REFINED = 100
-"""Held-out samples that refinement is measured on, at most."""
+"""Held-out samples that refinement is measured on, at most, where no other number is asked for."""
 
 VIEWS = (1, 2, 3, 5)
 CAMERAS: tuple[Literal["fixed", "learned"], ...] = ("fixed", "learned")
@@ -43,8 +43,12 @@ def evaluate(
     settings: Sequence[Settings],
     seeds: Sequence[int] = (0,),
     progress: Listener | None = None,
+    refined: int = REFINED,
 ) -> Iterator[Trial]:
-    """A trial for each of the settings with each seed, as they end. Raises ProcedureError as ``fit`` does."""
+    """A trial for each of the settings with each seed, as they end. Raises ProcedureError as ``fit`` does.
+
+    refined: held-out samples that refinement is measured on, at most.
+    """
     for setting in settings:
         for seed in seeds:
             chosen = replace(setting, seed=seed)
@@ -53,9 +57,9 @@ def evaluate(
                 lesson = learn(procedure, crew, chosen, stages)
                 stages.end()
                 seconds = sum(stages.seconds.values())
-                refined = None if chosen.refine == "off" else _refined(procedure, crew, lesson, chosen, stages)
+                found = None if chosen.refine == "off" else _refined(procedure, crew, lesson, chosen, stages, refined)
             stages.end()
-            yield Trial(chosen, lesson.predictor.metrics, refined, seconds)
+            yield Trial(chosen, lesson.predictor.metrics, found, seconds)
 
 
 def variants(settings: Settings, compared: Literal["cameras", "views", "both"] | None) -> list[Settings]:
@@ -80,9 +84,11 @@ def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, 
     return table
 
 
-def _refined(procedure: Procedure, crew: Workers, lesson: Lesson, settings: Settings, stages: Stages) -> Metrics:
-    """The metrics after refinement, on the first REFINED held-out rows."""
-    held_out = lesson.held_out.take(np.arange(min(REFINED, len(lesson.held_out))))
+def _refined(
+    procedure: Procedure, crew: Workers, lesson: Lesson, settings: Settings, stages: Stages, count: int
+) -> Metrics:
+    """The metrics after refinement, on the first ``count`` held-out rows."""
+    held_out = lesson.held_out.take(np.arange(min(count, len(lesson.held_out))))
     shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
     judge = judge_of(shapes, settings)
     inferred = lesson.predictor.infer(held_out.shapes)

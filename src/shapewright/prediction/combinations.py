@@ -11,6 +11,7 @@ from shapewright.parameters import ParameterSpace, Scalar
 
 Floats = NDArray[np.float64]
 _UNLIKELY = 1e-4
+_LIKELIEST = 4
 
 
 def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], count: int) -> list[Floats]:
@@ -28,8 +29,7 @@ def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], co
             beams = [(total, [*head, float(values)]) for total, head in beams]
     unique: dict[tuple[object, ...], Floats] = {}
     for _, vector in beams:
-        meaning = space.canonical(space.decode(vector))
-        unique.setdefault(tuple(meaning.values()), np.array(vector))
+        unique.setdefault(_meaning(space, np.array(vector)), np.array(vector))
     return list(unique.values())[:count]
 
 
@@ -50,8 +50,13 @@ def plain(space: ParameterSpace, centre: Floats) -> Floats:
     return np.where(scalars, space.encode(space.defaults), centre)
 
 
-def others(space: ParameterSpace, centre: Floats) -> list[Floats]:
-    """The vectors that differ from one in a single choice that matters there."""
+def others(
+    space: ParameterSpace, centre: Floats, inferred: Sequence[NDArray[np.float32]] | None = None
+) -> list[Floats]:
+    """The vectors that differ from one in a single choice that matters there, then those of the likeliest choices.
+
+    inferred: of what is likely; without it there are none of these.
+    """
     active = set(space.active(space.decode(centre)))
     vectors = []
     for column, parameter in enumerate(space):
@@ -59,4 +64,15 @@ def others(space: ParameterSpace, centre: Floats) -> list[Floats]:
             if k != centre[column]:
                 vectors.append(centre.copy())
                 vectors[-1][column] = k
-    return vectors
+    if inferred is not None:
+        scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
+        vectors += [np.where(scalars, centre, each) for each in likeliest(space, inferred, _LIKELIEST)]
+    unique = {_meaning(space, centre): centre}
+    for each in vectors:
+        unique.setdefault(_meaning(space, each), each)
+    return list(unique.values())[1:]
+
+
+def _meaning(space: ParameterSpace, vector: Floats) -> tuple[object, ...]:
+    """What a vector decodes to, but for parameters that do not matter there."""
+    return tuple(space.canonical(space.decode(vector)).values())

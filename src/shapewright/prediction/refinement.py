@@ -168,7 +168,8 @@ def refine(
             if part != before or turn.back:
                 search.focus(space, part, turn.combinations, turn.back or part == parts[-1])
             if turn.other and best.residual is not None:
-                starts = others(space, best.centre)
+                likely = [column[i] for column in inferred] if turn.other == "likely" else None
+                starts = others(space, best.centre, likely)
                 if turn.other == "plain":
                     starts = [plain(space, start) for start in (best.centre, *starts)]
                 search.leave(best, [arm(i, start) for start in starts])
