@@ -27,8 +27,8 @@ from shapewright.threads import in_threads
 
 EVALUATIONS = 4_500
 """Shapes built for all trials together, about, where misfits are few: the causes of many take long enough."""
-_FEWER = 32  # for each misfit, until a third of them is left
-_STUDIED = 14  # misfits that hypotheses are made for, at most
+_FEWER = 36  # for each misfit, until a quarter of them is left
+_STUDIED = 12  # misfits that hypotheses are made for, at most
 _FEW = 0.12  # share of these, of which a proposal must be for more to be tried
 _KNOWN = 8  # shapes that no change may alter
 _SAMPLES = 40
@@ -97,7 +97,7 @@ def suggest(
     known = [(each.found.parameters, each.found.mesh) for each in list(explained.values())[:_KNOWN]]
     # A part is only ever proposed for misfits that were studied.
     worthy = [idea for idea in ideas if len(idea.starts) > _FEW * min(len(misfits), _STUDIED)]
-    evaluations = max(EVALUATIONS - _FEWER * len(misfits), EVALUATIONS // 3)
+    evaluations = max(EVALUATIONS - _FEWER * len(misfits), EVALUATIONS // 4)
     found = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
     return tuple(_suggestion(each, procedure, explained, judge) for each in found)
 
