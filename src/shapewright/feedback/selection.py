@@ -90,6 +90,9 @@ def selected(
     with Workers(procedure, settings.workers, Limits(settings.shape_seconds, settings.shape_memory_mb)) as crew:
         glanced = [each for idea in ideas[:_GLANCED] for each in _glanced(crew, procedure, idea, misfits, judge, known)]
         leading = sorted(glanced, key=lambda each: -each.promise)
+        # What a longer Range brings only a search tells: half of the places are theirs.
+        longer = [each for each in leading if each.proposal.rule is None][: _LEADING // 2]
+        leading = [*longer, *(each for each in leading if each not in longer)]
         share = int(_SHARES[0] * evaluations / min(_LEADING, max(len(leading), 1)))
         leading[:_LEADING] = [_led(crew, procedure, each, misfits, judge, share) for each in leading[:_LEADING]]
         leading = sorted(leading, key=lambda each: -each.promise)
