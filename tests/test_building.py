@@ -113,6 +113,28 @@ def test_workers_serve_several_requests_and_report_progress(part):
     assert all(process.poll() is not None for process in processes)
 
 
+def test_workers_turn_to_another_procedure_and_keep_their_processes(part, tmp_path):
+    other, broken = tmp_path / "other.py", tmp_path / "broken.py"
+    other.write_text(SOURCE.replace("np.eye(3) * scale", "2.0 * np.eye(3) * scale"))
+    broken.write_text(SOURCE)
+    lost = sw.load_procedure(broken)
+    broken.write_text("raise ValueError('not any more')")
+    asked = vectors("none", "raises", "none")
+    with Workers(part, 1, LIMITS) as crew:
+        first = crew.build(asked)
+        processes = [worker.process for worker in crew._idle]
+        crew.turn_to(sw.load_procedure(other))
+        second = crew.build(asked)
+        assert [worker.process for worker in crew._idle] == processes and crew.procedure.path == other
+        with pytest.raises(sw.ProcedureError, match="not any more"):
+            crew.turn_to(lost)
+        assert crew._idle == [] and all(process.poll() is not None for process in processes)
+        crew.turn_to(part)
+        assert outcome(crew.build(asked)) == outcome(first)
+    assert np.array_equal(second[0].shape.vertices, 2.0 * first[0].shape.vertices)
+    assert "other.py:15" in second[1].failure.message
+
+
 def test_nothing_asked_nothing_built(part):
     assert build_all(part, [], workers=1) == []
 

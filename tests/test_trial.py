@@ -2,7 +2,7 @@ import pytest
 
 import shapewright as sw
 from shapewright.building import Workers
-from shapewright.feedback.trial import GLANCE, SEARCH, Trial, changed, lent, tried, unchanged
+from shapewright.feedback.trial import GLANCE, SEARCH, Trial, begun, changed, lent, mixtures, tried, unchanged
 from shapewright.judge import Judge
 from shapewright.modelling.solids import box, cylinder
 from shapewright.procedure import ProcedureError
@@ -42,6 +42,31 @@ def test_a_trial_searches_each_reference_and_judges_it(post, judge):
     assert first.compatible == (0,) and first.distances[1] < only.distances[1]
     assert only.parameters == {1: START} and first.parameters[1]["height"] > 0.95
     assert only.joined(first).distances == first.distances
+
+
+def test_a_search_may_leave_some_scalars_as_they_are(post, judge):
+    start = {"height": 0.3, "wide": True}
+    with changed(
+        POST.replace("0.1))", "depth))").replace("False)", "False, depth: Annotated[float, Range(0.05, 1.0)] = 0.3)"),
+        post,
+        judge,
+    ) as crew:
+        found = tried(crew, {0: start}, judge, [GLANCE, SEARCH], only=["height"])
+        both = tried(crew, {0: start}, judge, [GLANCE, SEARCH])
+    assert found.parameters[0]["depth"] == pytest.approx(0.3) and found.parameters[0]["height"] > 0.35
+    assert both.distances[0] <= found.distances[0]
+
+
+def test_the_nearest_candidate_is_where_a_search_begins(post, judge):
+    with Workers(post, 1) as crew:
+        starts = begun(crew, {0: [START, {**START, "height": 0.5}], 1: [{**START, "height": 9.0}]}, judge)
+    assert starts[0].parameters["height"] == 0.5 and starts[1].parameters["height"] == 1.0
+    assert starts[0].cost < 0.18 * 15_000 < starts[1].cost
+    trial = Trial.of(starts, 0.18)
+    assert trial.compatible == (0,) and trial.distances[1] == starts[1].cost / 15_000
+    assert mixtures(post.space, trial, {0: START, 1: {**START, "wide": True}}) == {
+        1: [{"height": 0.5, "wide": False}, {"height": 0.8, "wide": False}]
+    }
 
 
 def test_a_changed_procedure_lives_as_long_as_the_trial(post, judge):

@@ -27,7 +27,7 @@ _PROBES = (3, 8)
 
 
 class Workers:
-    """A few worker processes that build shapes of one procedure; a context manager.
+    """A few worker processes that build shapes of one procedure at a time; a context manager.
 
     The results are in the order asked for and do not depend on the number of workers.
     """
@@ -43,6 +43,7 @@ class Workers:
         self.procedure = procedure
         self.count = count or cores()
         self.limits = limits or Limits()
+        self._names = names
         self._payload = _payload(procedure, names)
         self._idle: list[WorkerProcess] = []
         self._lock = threading.Lock()
@@ -51,9 +52,25 @@ class Workers:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self._stop()
+
+    def _stop(self) -> None:
         for worker in self._idle:
             worker.stop()
         self._idle.clear()
+
+    def turn_to(self, procedure: Procedure) -> None:
+        """Build shapes of another procedure from now on, in the same processes: to start one takes far longer.
+
+        Raises ProcedureError when the procedure does not load there.
+        """
+        self._payload, self.procedure = _payload(procedure, self._names), procedure
+        try:
+            for worker in self._idle:
+                worker.load(self._payload)
+        except ProcedureError:
+            self._stop()
+            raise
 
     def build(
         self,

@@ -75,6 +75,13 @@ class WorkerProcess:
         answer: list[Build] | Failure = self.exchange(parameters, stop)
         return answer
 
+    def load(self, payload: bytes) -> None:
+        """Build shapes of another procedure from now on. Raises ProcedureError; the worker is then lost."""
+        answer = self.exchange(payload, threading.Event())
+        if isinstance(answer, Failure):
+            self.stop()
+            raise ProcedureError(answer.message)
+
     def exchange(self, request: Any, stop: threading.Event) -> Any:
         """What the worker answers, or the failure that ended it; stop: leave off waiting, the worker is then lost."""
         try:

@@ -18,25 +18,38 @@ from shapewright.parameters import Parameters
 from shapewright.procedure import Infeasible, Procedure, ProcedureError, author_line, load_procedure
 
 _ANSWER_WITHIN = 0.25
+READY = "ready"
 
 
 def serve(connection: Connection) -> None:
-    """Answer requests until the other side hangs up."""
+    """Answer requests until the other side hangs up: vectors to build, or another procedure to go on with."""
     with _one_core():
-        target, search_path, names = pickle.loads(connection.recv_bytes())
+        payload = connection.recv_bytes()
         limits: Limits = connection.recv()
-        sys.path[:] = search_path
         try:
-            procedure = load_procedure(target) if isinstance(target, str) else target
+            procedure, names = _received(payload)
         except ProcedureError as error:
             connection.send(Failure("raised", str(error)))
             return
     limit_memory(limits.memory_mb)
-    connection.send("ready")
+    connection.send(READY)
     with _naming(names):
         while True:
-            requests: list[Parameters] = connection.recv()
-            connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
+            requests: list[Parameters] | bytes = connection.recv()
+            if isinstance(requests, bytes):
+                try:
+                    procedure, _ = _received(requests)
+                    connection.send(READY)
+                except ProcedureError as error:
+                    connection.send(Failure("raised", str(error)))
+            else:
+                connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
+
+
+def _received(payload: bytes) -> tuple[Procedure, str]:
+    """The procedure, and what its faces are labelled by. Raises ProcedureError when its file does not load."""
+    target, sys.path[:], names = pickle.loads(payload)
+    return load_procedure(target) if isinstance(target, str) else target, names
 
 
 @contextlib.contextmanager

@@ -40,7 +40,8 @@ class Explained:
     row: index of the reference in the collection. found: of the iteration. residuals: of its replica.
     For incompatible references only: nearest: what a longer search found within the space. best: the shape within the
     space whose surface has most in common with the reference's, which may be further away by the light field; misfit:
-    its residuals, which are least due to parameters. causes: the chief one first.
+    its residuals, which are least due to parameters. causes: the chief one first. outside: what was found with longer
+    Ranges, where that was searched for.
     """
 
     name: str
@@ -53,6 +54,7 @@ class Explained:
     best: Found
     misfit: Residuals
     causes: tuple[Cause, ...] = ()
+    outside: Found | None = None
 
 
 Suggest = Callable[[Procedure, Sequence[Explained], Workers, Judge, Stages], Sequence[Mapping[str, Any]]]
@@ -123,7 +125,17 @@ def explain(
             name, its = theirs.names[row], why.get(row) or _Why(found[row], found[row], difference)
             fits = iteration.results[row].compatible
             explained[name] = Explained(
-                name, row, reference, fits, found[row], difference, its.nearest, its.best, its.misfit, its.causes
+                name,
+                row,
+                reference,
+                fits,
+                found[row],
+                difference,
+                its.nearest,
+                its.best,
+                its.misfit,
+                its.causes,
+                its.outside,
             )
         misfit = {each.name: Misfit(each.causes, each.misfit) for each in explained.values() if each.causes}
         told = shared(procedure.space, misfit)
@@ -141,6 +153,7 @@ class _Why:
     best: Found
     misfit: Residuals
     causes: tuple[Cause, ...] = ()
+    outside: Found | None = None
 
 
 def _causes(
@@ -190,7 +203,7 @@ def _causes(
             float(alone[row]) if strange[row] else None,
         )
         why = causes(searcher.space, searcher.threshold, evidence)
-        told[row] = _Why(inside[i], laid[i], differences[i], why)
+        told[row] = _Why(inside[i], laid[i], differences[i], why, outside[row])
     return told
 
 

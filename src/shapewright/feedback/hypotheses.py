@@ -88,7 +88,8 @@ def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -
     """Changes that bring the replica nearer to its reference, the best first; none where nothing helps much."""
     (before,) = costs([replica])
     blank = Hypothesis(before=before)
-    tried = _priced([*_simple(replica, found, blank)], replica, costs)
+    tried = _priced([*_simple(replica, blank)], replica, costs)
+    tried += _priced([*_further(tried, blank)], replica, costs)
     best = min(tried, key=lambda each: each.cost, default=blank)
     if any(piece.kind == "spokes" for piece in best.pieces):
         tried.append(_shaped(best, replica, costs))
@@ -108,25 +109,34 @@ def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -
     return sorted(unique.values(), key=lambda each: each.score)
 
 
-def _simple(replica: Mesh, found: Residuals, blank: Hypothesis) -> Iterator[Hypothesis]:
+def _simple(replica: Mesh, blank: Hypothesis) -> Iterator[Hypothesis]:
     """Each part taken away, in another form, or drawn in."""
+    s = _INSETS[-2]
     for label in replica.label_names:
         bounds = _bounds(replica, label)
         if bounds is None:
             continue
         if len(replica.label_names) > 1:
             yield replace(blank, removed=(label,))
-            for x, z in product((*_INSETS, 1.0), repeat=2):
-                if (x, z) != (1.0, 1.0) and (x == z or 1.0 in (x, z)):
-                    yield replace(blank, inset=(label,), scale=(x, z))
+            yield from (replace(blank, inset=(label,), scale=scale) for scale in ((s, s), (s, 1.0), (1.0, s)))
         middle = (float(bounds[:, 0].mean()), float(bounds[:, 2].mean()))
         for kind in ("cylinder", "box"):
-            piece = Piece(kind, bounds[0], bounds[1], middle=middle)
-            yield replace(blank, removed=(label,), pieces=(piece,))
-            if len(replica.label_names) > 1:
-                for s in _INSETS[::2]:
-                    yield replace(blank, removed=(label,), pieces=(piece,), inset=(REST,), scale=(s, s))
+            yield replace(blank, removed=(label,), pieces=(Piece(kind, bounds[0], bounds[1], middle=middle),))
         yield from (replace(blank, removed=(label,), pieces=(piece,)) for piece in _radial(bounds, middle))
+
+
+def _further(tried: Sequence[Hypothesis], blank: Hypothesis) -> Iterator[Hypothesis]:
+    """What helps drawn in further, and less far; each part in its better form with the rest drawn in."""
+    insets = [each for each in tried if each.inset and each.cost < blank.before]
+    for each in {best.inset: best for best in sorted(insets, key=lambda each: -each.cost)}.values():
+        for s in _INSETS:
+            scale = (s if each.scale[0] < 1.0 else 1.0, s if each.scale[1] < 1.0 else 1.0)
+            if scale != each.scale:
+                yield replace(blank, inset=each.inset, scale=scale)
+    forms = [each for each in tried if each.pieces and each.pieces[0].kind != "spokes"]
+    several = len({each.removed for each in forms}) > 1
+    for each in {best.removed: best for best in sorted(forms, key=lambda each: -each.cost)}.values() if several else ():
+        yield from (replace(each, inset=(REST,), scale=(s, s), cost=np.inf) for s in _INSETS[::2])
 
 
 def _radial(bounds: Floats, middle: tuple[float, float]) -> Iterator[Piece]:
@@ -251,6 +261,10 @@ def _forms(piece: Piece) -> tuple[Kind, ...]:
 def _priced(several: Sequence[Hypothesis], replica: Mesh, costs: Costs) -> list[Hypothesis]:
     prices = costs([applied(each, replica) for each in several])
     return [
-        replace(each, cost=float(price), loose=loose(each.pieces, _standing(each, replica)))
+        replace(each, cost=float(price), loose=_loose(each, replica) if price < each.before else 0)
         for each, price in zip(several, prices, strict=True)
     ]
+
+
+def _loose(hypothesis: Hypothesis, replica: Mesh) -> int:
+    return loose(hypothesis.pieces, _standing(hypothesis, replica)) if hypothesis.pieces else 0

@@ -3,75 +3,24 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 import numpy as np
 
-from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
 from shapewright.feedback.edit import EditError, free_name, with_range, with_rule
 from shapewright.feedback.hypotheses import REST, Hypothesis
 from shapewright.feedback.pieces import Piece
-from shapewright.feedback.ranges import End, pressed
+from shapewright.feedback.proposal import Misfit, Proposal, Ranges, as_value
 from shapewright.feedback.relations import WHOLE, Frames
 from shapewright.feedback.spelling import noun, number
 from shapewright.feedback.wording import Rule, addition, drawing_in, removal
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 from shapewright.shapes import Floats, Mesh
 
-Ranges = Mapping[str, tuple[float, float, float]]
-"""Low, high and default by the name of a parameter."""
-
 _REMOVED = 0.4  # share of the misfits whose replica has the part, from which on the rule takes it away
 _MOST_PIECES = 3
 _SHARED = 0.25
-
-
-@dataclass(frozen=True, eq=False)
-class Misfit:
-    """A reference that is not replicated: its index, what was found for it, and hypotheses, the best first.
-
-    parameters, replica: whose surface has most in common with the reference's. nearest: the parameters that are nearest
-    by the light field, where they are others. goal: the cost of a hypothesis that may well be compatible.
-    """
-
-    row: int
-    parameters: Parameters
-    replica: Mesh
-    hypotheses: tuple[Hypothesis, ...] = ()
-    nearest: Parameters | None = None
-    goal: float = THRESHOLD * RAW_SCALE
-
-    def pressed(self, space: ParameterSpace) -> set[End]:
-        """The ends of Ranges that the nearest parameters rest on."""
-        return pressed(space, self.nearest or self.parameters)
-
-
-@dataclass(frozen=True, eq=False)
-class Proposal:
-    """A change to try. write: makes the changed source, given ranges. ranges: wide ones to begin with.
-
-    starts: values of the new parameters by misfit's index; others start at the medians. worth: how many references it
-    may help, roughly. rule: None for a wider Range, whose ends are given.
-    """
-
-    kind: str
-    title: str
-    write: Callable[[Ranges], str]
-    ranges: Ranges
-    starts: Mapping[int, Parameters]
-    worth: float
-    rule: Rule | None = None
-    ends: tuple[End, ...] = ()
-
-    def start(self, misfit: Misfit) -> Parameters:
-        """Where the search begins for a misfit."""
-        if self.rule is None:
-            return misfit.nearest or misfit.parameters
-        middle: Parameters = {q.name: _value(q.whole, self.ranges[q.name][2]) for q in self.rule.quantities}
-        flag: Parameters = {self.rule.flag: self.rule.function != ""} if self.rule.flag else {}
-        return {**misfit.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}
 
 
 def proposals(
@@ -322,7 +271,7 @@ def _proposal(
     starts: dict[int, Parameters] = {}
     worth = 0.0
     for i, (misfit, hypothesis) in enumerate(members):
-        starts[misfit.row] = {q.name: _value(q.whole, q.values[i]) for q in rule.quantities}
+        starts[misfit.row] = {q.name: as_value(q.whole, q.values[i]) for q in rule.quantities}
         worth += float(np.clip(1.5 - hypothesis.cost / misfit.goal, 0.0, 1.0))
     return Proposal(
         kind,
@@ -333,10 +282,6 @@ def _proposal(
         worth + 0.05 * pieces,
         rule,
     )
-
-
-def _value(whole: bool, value: float) -> float | int:
-    return round(value) if whole else float(value)
 
 
 def _article(word: str) -> str:

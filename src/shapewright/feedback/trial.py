@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.building import Limits, Workers
+from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.feedback.attachment import separate
 from shapewright.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
@@ -20,14 +21,23 @@ from shapewright.prediction.refinement import Measure, refine
 from shapewright.procedure import Procedure, load_procedure
 from shapewright.shapes import Mesh
 
-PEEK = Budget((Round(1), Round(1), Round(1, 2, 4)))
 GLANCE = Budget((Round(2), Round(1), *(Round(1, 2, 4),) * 2))
-LOOK = Budget((Round(3), Round(2), *(Round(1, 2, 6),) * 2))
-SEARCH = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9))
-_PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
-_ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
+PEEK = Budget((Round(1), Round(1), *(Round(1, 2, 2),) * 2))
+LOOK = Budget((Round(6), Round(2), *(Round(1, 2, 6),) * 6), patience=3)
+SEARCH = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9), patience=3)
+PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
+ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
 _SPREAD = 0.1
 _LENDERS = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Parameters to begin with, the shape that they make, and its cost: an upper bound of the raw distance."""
+
+    parameters: Parameters
+    mesh: Mesh
+    cost: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +52,16 @@ class Trial:
     distances: Mapping[int, float]
     threshold: float
 
+    @classmethod
+    def of(cls, starts: Mapping[int, Start], threshold: float) -> Trial:
+        """What the parameters gave as they were."""
+        return cls(
+            {row: start.parameters for row, start in starts.items()},
+            {row: start.mesh for row, start in starts.items()},
+            {row: start.cost / RAW_SCALE for row, start in starts.items()},
+            threshold,
+        )
+
     @property
     def compatible(self) -> tuple[int, ...]:
         return tuple(row for row, distance in self.distances.items() if distance <= self.threshold)
@@ -51,7 +71,7 @@ class Trial:
         rows = [
             row
             for row, distance in self.distances.items()
-            if distance > _PROMISING * self.threshold or separate(self.replicas[row]) <= separate(before[row])
+            if distance > PROMISING * self.threshold or separate(self.replicas[row]) <= separate(before[row])
         ]
         return replace(self, distances={row: self.distances[row] for row in rows})
 
@@ -67,21 +87,39 @@ class Trial:
 
 
 @contextmanager
-def changed(source: str, procedure: Procedure, judge: Judge) -> Iterator[Workers]:
+def changed(source: str, procedure: Procedure, judge: Judge, crew: Workers | None = None) -> Iterator[Workers]:
     """Workers for the procedure of the same name in a changed source, loaded from a folder that is gone afterwards.
 
-    Raises ProcedureError when the source does not load.
+    crew: workers that turn to it, by default new ones. Raises ProcedureError when the source does not load.
     """
     settings = judge.settings
     with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
         path = Path(folder) / (procedure.path.name if procedure.path else f"{procedure.name}.py")
         path.write_text(source, encoding="utf-8")
-        new, limits = (
-            load_procedure(f"{path}:{procedure.name}"),
-            Limits(settings.shape_seconds, settings.shape_memory_mb),
-        )
-        with Workers(new, settings.workers, limits) as crew:
+        new = load_procedure(f"{path}:{procedure.name}")
+        if crew:
+            crew.turn_to(new)
             yield crew
+            return
+        with Workers(new, settings.workers, Limits(settings.shape_seconds, settings.shape_memory_mb)) as crew:
+            yield crew
+
+
+def begun(crew: Workers, candidates: Mapping[int, Sequence[Parameters]], judge: Judge) -> dict[int, Start]:
+    """The nearest of some candidates for each reference (by index), moved into the Ranges and built as they are.
+
+    References of which nothing can be built are left out.
+    """
+    space = crew.procedure.space
+    asked = [(row, space.carry(values)) for row, several in candidates.items() for values in several]
+    builds = crew.build([values for _, values in asked])
+    pairs = zip(asked, builds, strict=True)
+    made = [(row, build.parameters, build.shape) for (row, _), build in pairs if isinstance(build.shape, Mesh)]
+    starts: dict[int, Start] = {}
+    for cost, (row, values, mesh) in zip(judge.search_costs([(row, m) for row, _, m in made]), made, strict=True):
+        if np.isfinite(cost) and (row not in starts or cost < starts[row].cost):
+            starts[row] = Start(values, mesh, cost)
+    return starts
 
 
 def tried(
@@ -90,11 +128,14 @@ def tried(
     judge: Judge,
     budgets: Sequence[Budget],
     seed: int = 0,
+    enough: float = ENOUGH,
+    only: Collection[str] | None = None,
 ) -> Trial:
     """Search for each reference (by index) from the parameters given, and judge what is found.
 
     budgets: one after the other, the later ones only for references that come near; none to judge the parameters
-    themselves, moved into the procedure's Ranges.
+    themselves, moved into the procedure's Ranges. enough: of the threshold, at which a search ends. only: names of the
+    scalars that it may change, by default all.
     """
     best: dict[int, _Found] = {}
     space = crew.procedure.space
@@ -104,7 +145,8 @@ def tried(
     for number, budget in enumerate(budgets):
         if rows:
             fields = [best[row].field if row in best else 0 for row in rows]
-            vectors = _refined(space, crew, judge.measure(rows, fields), vectors, budget, judge.goal, seed + number)
+            measure, goal = judge.measure(rows, fields), enough * judge.goal
+            vectors = _refined(space, crew, measure, vectors, budget, goal, seed + number, only)
             _judge(best, rows, vectors, crew, judge)
             rows = [row for row in rows if row in best and _worth_more(best[row].distance, judge)]
             vectors = [best[row].parameters for row in rows]
@@ -124,31 +166,32 @@ def lent(
     budgets: Sequence[Budget],
     seed: int = 0,
 ) -> Trial:
-    """The trial, gone on with for the references that are not compatible from the choices with which others are.
+    """The trial, gone on with for the references that are not compatible from the choices with which others are."""
+    begin = begun(crew, mixtures(crew.procedure.space, trial, starts), judge)
+    found = tried(crew, {row: start.parameters for row, start in begin.items()}, judge, budgets, seed)
+    return trial.joined(found)
 
-    A shape that lacks a part may be nearest with choices to which the new part does not belong. Each reference starts
-    from the nearest of mixtures: another's parameters, its choices with the reference's own numbers, or one choice.
+
+def mixtures(space: ParameterSpace, trial: Trial, starts: Mapping[int, Parameters]) -> dict[int, list[Parameters]]:
+    """Candidates for the references of ``starts`` that are not compatible, from the choices with which others are.
+
+    A shape that lacks a part may be nearest with choices to which the new part does not belong. Candidates are
+    another's parameters, its choices with the reference's own numbers, and one choice of its alone.
     """
-    space = crew.procedure.space
-    rest = [row for row in starts if row not in trial.compatible]
     lenders: dict[tuple[object, ...], Parameters] = {}
     for row in sorted(trial.compatible, key=lambda row: trial.distances[row]):
         parameters = trial.parameters[row]
         lenders.setdefault(tuple(parameters[p.name] for p in space if p.classes), parameters)
-    asked = [
-        (row, values)
-        for row in rest
-        for lender in list(lenders.values())[:_LENDERS]
-        for values in _mixed(space, space.carry(starts[row]), lender)
-    ]
-    builds = crew.build([space.canonical(values) for _, values in asked])
-    made = [
-        (row, b.parameters, b.shape) for (row, _), b in zip(asked, builds, strict=True) if isinstance(b.shape, Mesh)
-    ]
-    costs = judge.search_costs([(row, mesh) for row, _, mesh in made])
-    nearest_last = sorted(zip(costs, made, strict=True), key=lambda each: -each[0])
-    begin = {row: parameters for _, (row, parameters, _) in nearest_last}
-    return trial.joined(tried(crew, begin, judge, budgets, seed)) if begin else trial
+    mixed: dict[int, list[Parameters]] = {}
+    for row in starts:
+        own, known = space.carry(starts[row]), [space.carry(starts[row])]
+        for lender in list(lenders.values())[:_LENDERS] if row not in trial.compatible else ():
+            for values in _mixed(space, own, lender):
+                if (new := space.canonical(values)) not in known:
+                    known.append(new)
+        if len(known) > 1:
+            mixed[row] = known[1:]
+    return mixed
 
 
 def _mixed(space: ParameterSpace, own: Parameters, other: Parameters) -> Iterator[Parameters]:
@@ -203,7 +246,7 @@ def _judge(
 
 
 def _worth_more(distance: float, judge: Judge) -> bool:
-    return judge.settings.threshold < distance <= _PROMISING * judge.settings.threshold
+    return judge.settings.threshold < distance <= PROMISING * judge.settings.threshold
 
 
 def _refined(
@@ -214,7 +257,10 @@ def _refined(
     budget: Budget,
     goal: float,
     seed: int,
+    only: Collection[str] | None,
 ) -> list[Parameters]:
+    encoded = np.array([space.encode(values) for values in vectors])
+    fixed = np.array([only is not None and name not in only for name in space.names])
     return refine(
         space,
         _as_inferred(space, vectors),
@@ -222,8 +268,9 @@ def _refined(
         measure,
         budget,
         seed,
+        within=(np.where(fixed, encoded, 0.0), np.where(fixed, encoded, 1.0)),
         spread=_SPREAD,
-        enough=_ENOUGH * goal,
+        enough=goal,
     )
 
 

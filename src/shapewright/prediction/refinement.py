@@ -202,6 +202,7 @@ def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search, par
         return
     active = set(space.active(space.decode(arm.centre)))
     free = np.array([isinstance(parameter, Scalar) and parameter.name in active for parameter in space])
+    free &= search.high > search.low
     if not free.any():
         return
     if arm.slopes is None:

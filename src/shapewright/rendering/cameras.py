@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,6 +76,11 @@ def within_reach(positions: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def pack(cameras: Sequence[Camera]) -> NDArray[np.float64]:
     """(C, 11): per camera its frame (9), distance and focal length in units of half an image, for the rasteriser."""
+    return _packed(tuple(cameras)).copy()
+
+
+@lru_cache(maxsize=64)
+def _packed(cameras: tuple[Camera, ...]) -> NDArray[np.float64]:
     return np.array(
         [
             [*camera.frame().ravel(), camera.distance, 1.0 / math.tan(math.radians(camera.field_of_view) / 2.0)]
