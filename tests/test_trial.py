@@ -2,7 +2,7 @@ import pytest
 
 import shapewright as sw
 from shapewright.building import Workers
-from shapewright.feedback.trial import GLANCE, SEARCH, Trial, begun, changed, lent, mixtures, tried, unchanged
+from shapewright.feedback.trial import GLANCE, SEARCH, Trial, begun, changed, mixtures, tried, unchanged
 from shapewright.judge import Judge
 from shapewright.modelling.solids import box, cylinder
 from shapewright.procedure import ProcedureError
@@ -103,8 +103,10 @@ def test_references_lend_each_other_their_choices(post):
         starts = {0: {**START, "round": True}, 1: {**START, "round": False}}
         alone = tried(crew, starts, judge, [GLANCE])
         alone = Trial(alone.parameters, alone.replicas, {**alone.distances, 1: 0.5}, alone.threshold)
-        together = lent(crew, alone, starts, judge, [GLANCE, SEARCH])
-        assert lent(crew, Trial({}, {}, {}, 0.18), starts, judge, [GLANCE]).distances == {}
+        begin = begun(crew, mixtures(crew.procedure.space, alone, starts), judge)
+        assert list(begin) == [1] and begin[1].parameters["round"]
+        together = alone.joined(tried(crew, {1: begin[1].parameters}, judge, [GLANCE, SEARCH]))
+        assert mixtures(crew.procedure.space, Trial({}, {}, {}, 0.18), starts) == {}
     assert alone.compatible == (0,) and together.compatible == (0, 1)
     assert together.parameters[1]["round"] and together.parameters[0] == alone.parameters[0]
 

@@ -33,6 +33,7 @@ from shapewright.feedback.trial import (
 )
 from shapewright.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
+from shapewright.prediction.budget import Budget
 from shapewright.procedure import Procedure, ProcedureError
 from shapewright.shapes import Mesh
 
@@ -46,6 +47,7 @@ _SHARES = (0.3, 0.35)  # of the evaluations left: for the leading proposals; for
 _MIXED = 0.15  # of these, for the choices that suit others
 _LITTLE = 0.05  # of the most that is promised, that is not worth a trial
 _LEAST = 24  # evaluations that a search is worth beginning with
+_FAR = 3.0  # thresholds: what lies further away is not searched for with longer Ranges, which may change much
 _CLOSE = 0.4  # of the threshold: how near longer Ranges should come, so that they are long enough
 
 
@@ -179,7 +181,6 @@ def _confirmed(
 ) -> Trial:
     """What the proposal gives for all misfits: built as it is, with the choices that suit others, and searched for."""
     idea, before = glanced.proposal, {m.row: m.replica for m in misfits}
-    aim = _CLOSE if idea.rule is None else 1.0
     with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
         space, scalars = new.procedure.space, _scalars(new.procedure.space)
         rest = {m.row: idea.candidates(m) for m in misfits if m.row not in glanced.starts}
@@ -187,14 +188,21 @@ def _confirmed(
         trial = Trial.of(starts, judge.settings.threshold).standing(before)
         fresh = [name for name in space.names if name not in procedure.space.names]
         left, held = evaluations, 0
-        for turn, (budget, only) in enumerate(((PEEK, fresh), (SEARCH, None), (LOOK, None))):
+        turns: list[tuple[Budget, Sequence[str] | None, float]] = [
+            (PEEK, fresh, 1.0),
+            (SEARCH, None, 1.0),
+            (LOOK, None, 1.0),
+        ]
+        if idea.rule is None:
+            turns.append((SEARCH, None, _CLOSE))
+        for turn, (budget, only, aim) in enumerate(turns):
             if idea.rule and len(trial.compatible) > held:
                 held = len(trial.compatible)
                 mixed = _afforded(mixtures(space, trial, trial.parameters), int(_MIXED * left))
                 left -= sum(len(several) for several in mixed.values())
                 trial = trial.joined(Trial.of(begun(new, mixed, judge), trial.threshold)).standing(before)
             free = scalars if only is None else len(only)
-            rows = _near(trial, aim)[: left // min(budget.evaluations(free), _LEAST)]
+            rows = _near(trial, aim, PROMISING if idea.rule else _FAR)[: left // min(budget.evaluations(free), _LEAST)]
             if rows and free:
                 within = budget.within(left / len(rows), free)
                 left -= len(rows) * within.evaluations(free)
@@ -204,9 +212,9 @@ def _confirmed(
     return trial
 
 
-def _near(trial: Trial, aim: float) -> list[int]:
+def _near(trial: Trial, aim: float, far: float) -> list[int]:
     """References that are worth a search: those that are not compatible first, the nearest first."""
-    rows = [row for row in trial.distances if aim < trial.distances[row] / trial.threshold <= PROMISING]
+    rows = [row for row in trial.distances if aim < trial.distances[row] / trial.threshold <= far]
     return sorted(rows, key=lambda row: (row in trial.compatible, trial.distances[row]))
 
 

@@ -158,20 +158,6 @@ def tried(
     )
 
 
-def lent(
-    crew: Workers,
-    trial: Trial,
-    starts: Mapping[int, Parameters],
-    judge: Judge,
-    budgets: Sequence[Budget],
-    seed: int = 0,
-) -> Trial:
-    """The trial, gone on with for the references that are not compatible from the choices with which others are."""
-    begin = begun(crew, mixtures(crew.procedure.space, trial, starts), judge)
-    found = tried(crew, {row: start.parameters for row, start in begin.items()}, judge, budgets, seed)
-    return trial.joined(found)
-
-
 def mixtures(space: ParameterSpace, trial: Trial, starts: Mapping[int, Parameters]) -> dict[int, list[Parameters]]:
     """Candidates for the references of ``starts`` that are not compatible, from the choices with which others are.
 
