@@ -80,11 +80,11 @@ def test_pieces_that_hypotheses_share_become_one_rule(table, tmp_path):
     assert plate.title == "A plate" and set(plate.starts) == {0, 1, 2}
     procedure = loads(tmp_path, plate)
     for each in misfits:
-        start = plate.start(each)
+        start = plate.candidates(each)[0]
         assert start["plate"] is True and procedure(**start).label_names == ("top", "legs", "plate")
     other = misfit(table, 7)
-    assert plate.start(other)["plate_level"] == pytest.approx(plate.ranges["plate_level"][2])
-    needed = narrowed(plate, table.space, [plate.start(each) for each in misfits])
+    assert plate.candidates(other)[0]["plate_level"] == pytest.approx(plate.ranges["plate_level"][2])
+    needed = narrowed(plate, table.space, [plate.candidates(each)[0] for each in misfits])
     assert needed["plate_level"][1] < plate.ranges["plate_level"][1]
 
 
@@ -100,10 +100,10 @@ def test_parts_that_go_or_stand_further_in(table, tmp_path):
         changed = loads(tmp_path, each)
         assert len(changed().faces) == len(table().faces)
         (row,) = each.starts
-        assert changed(**each.start(misfit(table, row))).extent.max() > 0
+        assert changed(**each.candidates(misfit(table, row))[0]).extent.max() > 0
     round_top = next(each for each in found if "disc" in each.title)
     assert round_top.title.endswith("the rest drawn in")
-    mesh = loads(tmp_path, round_top)(**round_top.start(misfit(table, 3)))
+    mesh = loads(tmp_path, round_top)(**round_top.candidates(misfit(table, 3))[0])
     assert frames_of(mesh, ["legs"])["legs"][1, 0] == pytest.approx(0.7 * 0.45, abs=0.01)
 
 

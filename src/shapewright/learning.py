@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from shapewright.building import Build, Limits, Workers, describe_failures
-from shapewright.parameters import Parameters, Scalar
+from shapewright.parameters import Parameters
 from shapewright.prediction.augmentation import augmented
 from shapewright.prediction.budget import QUICK, THOROUGH, Budget
 from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset, shapes_of, split
@@ -48,8 +48,8 @@ class Lesson:
         budget, seconds = DRAWN if drawn else QUICK, settings.refine_seconds
         if settings.refine == "thorough":
             budget, seconds = DRAWN_THOROUGH if drawn else THOROUGH, 10.0 * settings.refine_seconds
-        scalars = sum(isinstance(parameter, Scalar) for parameter in self.predictor.space)
-        return budget.within(seconds / max(self.facts["build_seconds"], 1e-6), scalars)
+        evaluations = seconds / max(self.facts["build_seconds"], 1e-6)
+        return budget.within(evaluations, int(self.predictor.space.scalars.sum()))
 
 
 def train(procedure: Procedure, settings: Settings | None = None, progress: Listener | None = None) -> Predictor:

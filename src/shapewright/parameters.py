@@ -222,6 +222,11 @@ class ParameterSpace:
         return {parameter.name: parameter.default for parameter in self.parameters}
 
     @property
+    def scalars(self) -> NDArray[np.bool_]:
+        """(P,): which parameters are scalars."""
+        return np.array([isinstance(parameter, Scalar) for parameter in self.parameters], dtype=bool)
+
+    @property
     def combinations(self) -> float:
         """Number of vectors that can be sampled: a whole number, or infinity when a scalar is continuous."""
         counts = [len(parameter.levels) if parameter.levels is not None else math.inf for parameter in self.parameters]

@@ -18,7 +18,7 @@ from shapewright.parameters import Parameters
 from shapewright.procedure import Infeasible, Procedure, ProcedureError, author_line, load_procedure
 
 _ANSWER_WITHIN = 0.25
-READY = "ready"
+_READY = "ready"
 
 
 def serve(connection: Connection) -> None:
@@ -32,14 +32,14 @@ def serve(connection: Connection) -> None:
             connection.send(Failure("raised", str(error)))
             return
     limit_memory(limits.memory_mb)
-    connection.send(READY)
+    connection.send(_READY)
     with _naming(names):
         while True:
             requests: list[Parameters] | bytes = connection.recv()
             if isinstance(requests, bytes):
                 try:
                     procedure, _ = _received(requests)
-                    connection.send(READY)
+                    connection.send(_READY)
                 except ProcedureError as error:
                     connection.send(Failure("raised", str(error)))
             else:

@@ -66,17 +66,11 @@ class Proposal:
 
     def candidates(self, misfit: Misfit) -> list[Parameters]:
         """Where a search may begin for a misfit."""
-        if self.rule is None and misfit.wide and misfit.nearest:
-            return [misfit.wide, misfit.nearest]
-        return [self.start(misfit)]
-
-    def start(self, misfit: Misfit) -> Parameters:
-        """Where the search begins for a misfit."""
         if self.rule is None:
-            return misfit.wide or misfit.nearest or misfit.parameters
+            return [known for known in (misfit.wide, misfit.nearest) if known] or [misfit.parameters]
         middle: Parameters = {q.name: as_value(q.whole, self.ranges[q.name][2]) for q in self.rule.quantities}
         flag: Parameters = {self.rule.flag: self.rule.function != ""} if self.rule.flag else {}
-        return {**misfit.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}
+        return [{**misfit.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}]
 
 
 def as_value(whole: bool, value: float) -> float | int:

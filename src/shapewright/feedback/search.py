@@ -209,8 +209,7 @@ class Searcher:
 
     def _within(self, budget: Budget, share: float, references: int) -> Budget:
         """What the references' part of a share of all evaluations pays for."""
-        scalars = sum(isinstance(parameter, Scalar) for parameter in self.space)
-        return budget.within(share * EVALUATIONS / max(references, 1), scalars)
+        return budget.within(share * EVALUATIONS / max(references, 1), int(self.space.scalars.sum()))
 
     def _nearer(self, rows: Sequence[int], vectors: Sequence[Parameters], known: Sequence[Found]) -> list[Found]:
         """The nearer of what was known and what these vectors give."""

@@ -32,7 +32,7 @@ from shapewright.feedback.trial import (
     unchanged,
 )
 from shapewright.judge import Judge
-from shapewright.parameters import Parameters, ParameterSpace, Scalar
+from shapewright.parameters import Parameters
 from shapewright.prediction.budget import Budget
 from shapewright.procedure import Procedure, ProcedureError
 from shapewright.shapes import Mesh
@@ -153,7 +153,7 @@ def _led(
     """The same after a short search for the nearest of the misfits that it is for, which then stand for the others."""
     idea, starts = glanced.proposal, glanced.starts
     ways = {m.row: _way(m, starts) for m in misfits if m.row in starts}
-    budget = GLANCE.within(max(evaluations / _LED, _LEAST), _scalars(procedure.space))
+    budget = GLANCE.within(max(evaluations / _LED, _LEAST), int(procedure.space.scalars.sum()))
     near = sorted((row for row in ways if row in idea.starts and ways[row] < 1.0), key=lambda row: starts[row].cost)
     near = near[: min(_LED, evaluations // _LEAST)]
     if not near:
@@ -172,17 +172,13 @@ def _led(
     return replace(glanced, starts=starts, promise=_promise(idea, misfits, after))
 
 
-def _scalars(space: ParameterSpace) -> int:
-    return sum(isinstance(parameter, Scalar) for parameter in space)
-
-
 def _confirmed(
     crew: Workers, procedure: Procedure, glanced: _Glanced, misfits: Sequence[Misfit], judge: Judge, evaluations: int
 ) -> Trial:
     """What the proposal gives for all misfits: built as it is, with the choices that suit others, and searched for."""
     idea, before = glanced.proposal, {m.row: m.replica for m in misfits}
     with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
-        space, scalars = new.procedure.space, _scalars(new.procedure.space)
+        space, scalars = new.procedure.space, int(new.procedure.space.scalars.sum())
         rest = {m.row: idea.candidates(m) for m in misfits if m.row not in glanced.starts}
         starts = {**glanced.starts, **begun(new, rest, judge)}
         trial = Trial.of(starts, judge.settings.threshold).standing(before)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from shapewright.parameters import ParameterSpace, Scalar
+from shapewright.parameters import ParameterSpace
 
 Floats = NDArray[np.float64]
 _UNLIKELY = 1e-4
@@ -29,7 +29,8 @@ def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], co
             beams = [(total, [*head, float(values)]) for total, head in beams]
     unique: dict[tuple[object, ...], Floats] = {}
     for _, vector in beams:
-        unique.setdefault(_meaning(space, np.array(vector)), np.array(vector))
+        centre = np.array(vector)
+        unique.setdefault(_meaning(space, centre), centre)
     return list(unique.values())[:count]
 
 
@@ -46,8 +47,7 @@ def surprise(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], cen
 
 def plain(space: ParameterSpace, centre: Floats) -> Floats:
     """The same choices, and all scalars at their defaults."""
-    scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
-    return np.where(scalars, space.encode(space.defaults), centre)
+    return np.where(space.scalars, space.encode(space.defaults), centre)
 
 
 def others(
@@ -65,8 +65,7 @@ def others(
                 vectors.append(centre.copy())
                 vectors[-1][column] = k
     if inferred is not None:
-        scalars = np.array([isinstance(parameter, Scalar) for parameter in space])
-        vectors += [np.where(scalars, centre, each) for each in likeliest(space, inferred, _LIKELIEST)]
+        vectors += [np.where(space.scalars, centre, each) for each in likeliest(space, inferred, _LIKELIEST)]
     unique = {_meaning(space, centre): centre}
     for each in vectors:
         unique.setdefault(_meaning(space, each), each)

@@ -141,12 +141,15 @@ def refine(
     low, high = within or (np.zeros((count, len(space))), np.ones((count, len(space))))
     searches = []
 
+    def told(i: int) -> list[NDArray[np.float32]]:
+        return [column[i] for column in inferred]
+
     def arm(i: int, centre: Floats, known: bool = False) -> _Arm:
-        unlikely = doubt and doubt * surprise(space, [column[i] for column in inferred], centre)
+        unlikely = doubt and doubt * surprise(space, told(i), centre)
         return _Arm(centre, unlikely, known, spread=spread)
 
     for i in range(count):
-        centres = likeliest(space, [column[i] for column in inferred], widest - budget.simple)
+        centres = likeliest(space, told(i), widest - budget.simple)
         centres += [space.encode(space.defaults), *others(space, space.encode(space.defaults))][: budget.simple]
         arms = [arm(i, centre) for centre in centres]
         if known and (given := known[i]) is not None:
@@ -168,8 +171,7 @@ def refine(
             if part != before or turn.back:
                 search.focus(space, part, turn.combinations, turn.back or part == parts[-1])
             if turn.other and best.residual is not None:
-                likely = [column[i] for column in inferred] if turn.other == "likely" else None
-                starts = others(space, best.centre, likely)
+                starts = others(space, best.centre, told(i) if turn.other == "likely" else None)
                 if turn.other == "plain":
                     starts = [plain(space, start) for start in (best.centre, *starts)]
                 search.leave(best, [arm(i, start) for start in starts])
