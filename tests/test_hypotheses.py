@@ -42,6 +42,22 @@ def test_legs_that_stand_further_in():
     assert drawn.scale[0] < 0.8 and drawn.cost < 0.5 * drawn.before and not drawn.pieces
 
 
+def splayed(by):
+    return legs().taper((by, 1.0), "-y").label("legs")
+
+
+def test_legs_that_lean_outwards():
+    several = found((top() | splayed(1.5)).mesh(), (top() | legs()).mesh())
+    assert several[0].splayed == ("legs",) and not several[0].removed
+    assert several[0].scale == (1.4, 1.0) and several[0].cost < 0.5 * several[0].before
+
+
+def test_legs_that_lean_outwards_where_a_runner_goes():
+    runner = box((0.06, 0.06, 0.7), at=(0.47, -0.29, 0)).mirror("x", keep=True).label("runner")
+    best = found((top() | splayed(1.8)).mesh(), (top() | legs() | runner).mesh())[0]
+    assert best.splayed == ("legs",) and best.removed == ("runner",) and best.scale == (1.7, 1.0)
+
+
 def test_nothing_is_proposed_for_equal_shapes():
     mesh = (top() | legs()).mesh()
     assert found(mesh, mesh) == []
@@ -53,4 +69,7 @@ def test_applying_a_hypothesis():
     np.testing.assert_allclose(bare.bounds[:, 1], [0.29, 0.35])
     inset = applied(Hypothesis(removed=("top",), inset=(REST,), scale=(0.5, 1.0)), replica)
     np.testing.assert_allclose(inset.extent, [0.5, 0.64, 0.7], atol=0.01)
+    apart = applied(Hypothesis(splayed=("legs",), scale=(1.5, 1.0)), replica)
+    np.testing.assert_allclose(apart.extent, [1.5, 0.67, 0.7], atol=0.01)
+    assert np.abs(apart.vertices[apart.vertices[:, 1] > 0.28, 0]).max() < 0.52
     assert applied(Hypothesis(), replica).faces.shape == replica.faces.shape

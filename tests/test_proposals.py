@@ -93,7 +93,7 @@ def test_parts_that_go_or_stand_further_in(table, tmp_path):
     gone = Hypothesis(removed=("legs",), cost=900.0, before=3000.0)
     block = Hypothesis(removed=("legs",), pieces=(shelf(0.3),), cost=900.0, before=3000.0)
     disc = Piece("cylinder", np.array([-0.5, 0.57, -0.35]), np.array([0.5, 0.63, 0.35]))
-    rounded = Hypothesis(("top",), (REST,), (0.7, 0.7), (disc,), 900.0, 3000.0)
+    rounded = Hypothesis(("top",), (REST,), scale=(0.7, 0.7), pieces=(disc,), cost=900.0, before=3000.0)
     found = made(table, [misfit(table, i, each) for i, each in enumerate((drawn, gone, block, rounded))])
     assert {each.kind for each in found} == {"moved part", "part removed", "part replaced"}
     for each in found:
@@ -105,6 +105,22 @@ def test_parts_that_go_or_stand_further_in(table, tmp_path):
     assert round_top.title.endswith("the rest drawn in")
     mesh = loads(tmp_path, round_top)(**round_top.candidates(misfit(table, 3))[0])
     assert frames_of(mesh, ["legs"])["legs"][1, 0] == pytest.approx(0.7 * 0.45, abs=0.01)
+
+
+def test_parts_that_are_splayed_alone_and_where_another_goes(table, tmp_path):
+    legs = Hypothesis(splayed=("legs",), scale=(1.4, 1.0), cost=1000.0, before=3000.0)
+    bare = Hypothesis(("top",), splayed=("legs",), scale=(1.4, 1.4), cost=900.0, before=3000.0)
+    alone, instead = made(table, [misfit(table, 0, legs), misfit(table, 1, bare)])
+    if alone.rule.flag:
+        alone, instead = instead, alone
+    assert alone.title == "The legs splayed" and instead.title == "The legs splayed, without the top"
+    assert {each.kind for each in (alone, instead)} == {"moved part"}
+    width = table().extent[0]
+    unchanged, splayed = (loads(tmp_path, alone)(**values) for values in ({}, alone.candidates(misfit(table, 0))[0]))
+    assert unchanged.extent[0] == pytest.approx(width) and unchanged.label_names == ("top", "legs")
+    np.testing.assert_allclose(frames_of(splayed, ["legs"])["legs"][:, 0], [-0.45 * 1.4, 0.45 * 1.4])
+    mesh = loads(tmp_path, instead)(**instead.candidates(misfit(table, 1))[0])
+    assert mesh.label_names == ("legs",) and mesh.extent[0] == pytest.approx(1.26)
 
 
 def test_nothing_in_common_is_no_proposal(table):

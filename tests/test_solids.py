@@ -171,6 +171,11 @@ def test_labels_of_parts_made_from_one_another_stay_apart():
     assert relabelled.label_names == ("both",)
 
 
+def test_the_labels_of_its_pieces():
+    assert (box(1).label("seat") | box(2, at=(3, 0, 0)).label("back") | box(1)).label_names == ("seat", "back")
+    assert box(1).label_names == ()
+
+
 def test_labels_of_what_a_boolean_removed_are_not_listed():
     inner, outer = box(1).label("inner"), box(2).label("outer")
     assert (inner | outer).mesh().label_names == ("outer",)

@@ -9,7 +9,7 @@ from shapewright.feedback.edit import free_name, with_rule
 from shapewright.feedback.pieces import Piece
 from shapewright.feedback.relations import WHOLE
 from shapewright.feedback.spelling import Quantity, number
-from shapewright.feedback.wording import addition, drawing_in, removal
+from shapewright.feedback.wording import addition, drawing_in, removal, splaying
 
 TABLE = """from typing import Annotated
 
@@ -151,6 +151,20 @@ def test_a_part_drawn_in_stays_where_it_was_by_default(tmp_path):
 def test_a_shape_off_the_origin_is_drawn_in_about_its_own_middle():
     aside = [{WHOLE: frames(0.5, 0.5)[WHOLE] + np.array([2, 0, 0])}]
     assert "about=shape.bounds.mean(axis=0)" in drawing_in("legs", [(0.7, 0.8)], aside, FREE, "Legs.").function
+
+
+def test_a_splayed_part_keeps_its_high_end_and_is_left_alone_where_it_is_missing(tmp_path):
+    rule = splaying("legs", [(1.4, 1.2)], [], False, FREE, "Legs, wider apart at the floor.")
+    path = tmp_path / "table.py"
+    path.write_text(with_rule(TABLE, "table", rule.spelled({q.name: (0.8, 2.0, 1.0) for q in rule.quantities})))
+    procedure = sw.load_procedure(path)
+    np.testing.assert_allclose(part(procedure(), "legs")[:, 0], [-0.5, 0.5])
+    wide = procedure(legs_splay_x=1.5)
+    np.testing.assert_allclose(part(wide, "legs")[:, 0], [-0.75, 0.75])
+    assert wide.vertices[wide.vertices[:, 1] > 0.69, 0].max() == pytest.approx(0.5)
+    apron = splaying("apron", [(1.4, 1.2)], [], False, FREE, "An apron.")
+    path.write_text(with_rule(TABLE, "table", apron.spelled({q.name: (0.8, 2.0, 1.5) for q in apron.quantities})))
+    assert sw.load_procedure(path)(apron_splay_x=2.0).label_names == ("top", "legs")
 
 
 def test_a_part_that_may_be_missing(tmp_path):

@@ -1,4 +1,4 @@
-"""What would turn a replica into its reference: parts taken away, drawn in, or put in place; tried on the mesh alone.
+"""What would turn a replica into its reference: parts taken away, moved, or put in place; tried on the mesh alone.
 
 A hypothesis about one misfit is cheap to judge, since no procedure runs. Those that misfits share become rules.
 """
@@ -35,17 +35,19 @@ _OVERLAP = 0.2
 _EVEN = 0.93
 _BREADTH = 0.1
 _INSETS = (0.62, 0.71, 0.82, 0.91)
+_SPLAY, _SPLAYS = 1.4, (0.7, 1.2, 1.7, 2.1)
 
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
     """A change of a replica. removed: labels of parts; inset: those drawn towards the middle along x and z, by factors
-    scale; pieces: what is put in, in the replica's units. cost: of the changed replica; before: of the replica.
-    loose: number of the pieces that hang in the air.
+    scale; splayed: those drawn so at their low end only; pieces: what is put in, in the replica's units. cost: of the
+    changed replica; before: of the replica. loose: number of the pieces that hang in the air.
     """
 
     removed: tuple[str, ...] = ()
     inset: tuple[str, ...] = ()
+    splayed: tuple[str, ...] = ()
     scale: tuple[float, float] = (1.0, 1.0)
     pieces: tuple[Piece, ...] = ()
     cost: float = np.inf
@@ -55,13 +57,13 @@ class Hypothesis:
     @property
     def score(self) -> float:
         """The cost, and what the change itself costs: simple changes suit more references."""
-        changes = len(self.removed) + len(self.pieces) + len(self.inset)
+        changes = len(self.removed) + len(self.pieces) + len(self.inset) + len(self.splayed)
         return self.cost + _PRICE * changes + _LOOSE * self.loose
 
     @property
     def key(self) -> tuple[object, ...]:
         """Equal for hypotheses that call for the same rule."""
-        return (self.removed, self.inset, tuple(sorted((piece.key for piece in self.pieces), key=str)))
+        return (self.removed, self.inset, self.splayed, tuple(sorted((piece.key for piece in self.pieces), key=str)))
 
 
 def applied(hypothesis: Hypothesis, replica: Mesh) -> Mesh:
@@ -70,18 +72,29 @@ def applied(hypothesis: Hypothesis, replica: Mesh) -> Mesh:
 
 
 def _standing(hypothesis: Hypothesis, replica: Mesh) -> list[Mesh]:
-    """What stays of the replica: the parts that keep their place, and those that are drawn in."""
+    """What stays of the replica: the parts that keep their place, those drawn in, and those splayed."""
     names = np.array([*replica.label_names, ""], dtype=object)
     labels = names[replica.face_labels] if replica.face_labels is not None else np.full(len(replica.faces), "")
     kept = ~np.isin(labels, hypothesis.removed)
     drawn = np.ones(len(labels), dtype=bool) if hypothesis.inset == (REST,) else np.isin(labels, hypothesis.inset)
     middle = replica.bounds.mean(axis=0)
     factors = np.array([hypothesis.scale[0], 1.0, hypothesis.scale[1]])
+    splayed = [labels == label for label in hypothesis.splayed]
+    stays = ~np.any([drawn, *splayed], axis=0)
     parts = [
-        Mesh(replica.vertices, replica.faces[kept & ~drawn]),
+        Mesh(replica.vertices, replica.faces[kept & stays]),
         Mesh((replica.vertices - middle) * factors + middle, replica.faces[kept & drawn]),
+        *(_splayed(Mesh(replica.vertices, replica.faces[faces]), factors) for faces in splayed if faces.any()),
     ]
     return [part for part in parts if len(part.faces)]
+
+
+def _splayed(part: Mesh, factors: Floats) -> Mesh:
+    """A part as wide as it is at its high end, by the factors at the low one, and evenly between."""
+    low, high = part.bounds
+    down = (high[1] - part.vertices[:, 1:2]) / max(high[1] - low[1], 1e-9)
+    middle = (low + high) / 2.0
+    return Mesh((part.vertices - middle) * (1.0 + (factors - 1.0) * np.clip(down, 0.0, 1.0)) + middle, part.faces)
 
 
 def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -> list[Hypothesis]:
@@ -89,7 +102,8 @@ def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -
     (before,) = costs([replica])
     blank = Hypothesis(before=before)
     tried = _priced([*_simple(replica, blank)], replica, costs)
-    tried += _priced([*_further(tried, blank)], replica, costs)
+    tried += _priced([*_further(tried, replica, blank)], replica, costs)
+    tried += _priced([*_other_splays(tried, blank)], replica, costs)
     best = min(tried, key=lambda each: each.cost, default=blank)
     if any(piece.kind == "spokes" for piece in best.pieces):
         tried.append(_shaped(best, replica, costs))
@@ -118,25 +132,45 @@ def _simple(replica: Mesh, blank: Hypothesis) -> Iterator[Hypothesis]:
             continue
         if len(replica.label_names) > 1:
             yield replace(blank, removed=(label,))
-            yield from (replace(blank, inset=(label,), scale=scale) for scale in ((s, s), (s, 1.0), (1.0, s)))
+            yield from (replace(blank, inset=(label,), scale=scale) for scale in _scales(s))
+            yield from (replace(blank, splayed=(label,), scale=scale) for scale in _scales(_SPLAY))
         middle = (float(bounds[:, 0].mean()), float(bounds[:, 2].mean()))
         for kind in ("cylinder", "box"):
             yield replace(blank, removed=(label,), pieces=(Piece(kind, bounds[0], bounds[1], middle=middle),))
         yield from (replace(blank, removed=(label,), pieces=(piece,)) for piece in _radial(bounds, middle))
 
 
-def _further(tried: Sequence[Hypothesis], blank: Hypothesis) -> Iterator[Hypothesis]:
-    """What helps drawn in further, and less far; each part in its better form with the rest drawn in."""
+def _scales(s: float) -> Iterator[tuple[float, float]]:
+    yield from ((s, s), (s, 1.0), (1.0, s))
+
+
+def _further(tried: Sequence[Hypothesis], replica: Mesh, blank: Hypothesis) -> Iterator[Hypothesis]:
+    """What helps drawn in further, and less far; each part in its better form with the rest drawn in; parts splayed
+    where another is gone."""
     insets = [each for each in tried if each.inset and each.cost < blank.before]
     for each in {best.inset: best for best in sorted(insets, key=lambda each: -each.cost)}.values():
         for s in _INSETS:
             scale = (s if each.scale[0] < 1.0 else 1.0, s if each.scale[1] < 1.0 else 1.0)
             if scale != each.scale:
                 yield replace(blank, inset=each.inset, scale=scale)
+    gone = [each for each in tried if each.removed and not each.pieces and each.cost < blank.before]
+    for each in sorted(gone, key=lambda each: each.cost)[:1]:
+        for label in replica.label_names:
+            if label not in each.removed:
+                yield from (replace(each, splayed=(label,), scale=scale, cost=np.inf) for scale in _scales(_SPLAY))
     forms = [each for each in tried if each.pieces and each.pieces[0].kind != "spokes"]
     several = len({each.removed for each in forms}) > 1
     for each in {best.removed: best for best in sorted(forms, key=lambda each: -each.cost)}.values() if several else ():
         yield from (replace(each, inset=(REST,), scale=(s, s), cost=np.inf) for s in _INSETS[::2])
+
+
+def _other_splays(tried: Sequence[Hypothesis], blank: Hypothesis) -> Iterator[Hypothesis]:
+    """Other factors of the best splayed part, and of the best where another part is gone."""
+    helpful = sorted((each for each in tried if each.splayed and each.cost < blank.before), key=lambda each: -each.cost)
+    for each in {bool(each.removed): each for each in helpful}.values():
+        for s in _SPLAYS:
+            scale = (s if each.scale[0] != 1.0 else 1.0, s if each.scale[1] != 1.0 else 1.0)
+            yield replace(each, scale=scale, cost=np.inf)
 
 
 def _radial(bounds: Floats, middle: tuple[float, float]) -> Iterator[Piece]:

@@ -14,7 +14,7 @@ from shapewright.feedback.pieces import Piece
 from shapewright.feedback.proposal import Misfit, Proposal, Ranges, as_value
 from shapewright.feedback.relations import WHOLE, Frames
 from shapewright.feedback.spelling import noun, number
-from shapewright.feedback.wording import Rule, addition, drawing_in, removal
+from shapewright.feedback.wording import Rule, addition, drawing_in, removal, splaying
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 from shapewright.shapes import Floats, Mesh
 
@@ -162,6 +162,7 @@ def _rules(source: str, procedure: str, misfits: Sequence[Misfit], always: Seque
     labels = list(dict.fromkeys(label for misfit in misfits for label in misfit.replica.label_names))
     for label in labels:
         bare = [(m, h) for m, h in pairs if not h.pieces]
+        yield from _splays(source, procedure, [(m, h) for m, h in bare if h.splayed == (label,)], always)
         drawn = [(m, h) for m, h in bare if h.inset == (label,)]
         if drawn and label in always:
             scales, frames = [h.scale for _, h in drawn], [frames_of(m.replica, ()) for m, _ in drawn]
@@ -170,7 +171,7 @@ def _rules(source: str, procedure: str, misfits: Sequence[Misfit], always: Seque
             )
             ranges = {q.name: (0.3, 1.1, 1.0) for q in rule.quantities}
             yield _proposal("moved part", f"The {label} nearer to the middle", source, procedure, rule, ranges, drawn)
-        gone = [(m, h) for m, h in bare if h.removed == (label,) and not h.inset]
+        gone = [(m, h) for m, h in bare if h.removed == (label,) and not h.inset and not h.splayed]
         if gone:
             rule = removal(label, partial(free_name, source, procedure))
             yield _proposal("part removed", f"Without the {label}", source, procedure, rule, {}, gone)
@@ -179,6 +180,21 @@ def _rules(source: str, procedure: str, misfits: Sequence[Misfit], always: Seque
             yield from _with_pieces(source, procedure, some, always, rest)
     added = [(m, h) for m, h in pairs if h.pieces and not h.removed]
     yield from _with_pieces(source, procedure, added, always, False)
+
+
+def _splays(
+    source: str, procedure: str, pairs: Sequence[tuple[Misfit, Hypothesis]], always: Sequence[str]
+) -> Iterator[Proposal]:
+    """Rules that splay a part, where others stay and where others go."""
+    for removed in dict.fromkeys(h.removed for _, h in pairs):
+        members = [(m, h) for m, h in pairs if h.removed == removed]
+        (label,) = members[0][1].splayed
+        instead = f", without the {_listed(removed)}" if removed else ""
+        note = f"The {label} wider apart at the floor{instead}."
+        scales, free = [h.scale for _, h in members], partial(free_name, source, procedure)
+        rule = splaying(label, scales, removed, label in always, free, note)
+        ranges = {q.name: (0.6, 2.5, 1.0 if not removed else float(np.median(q.values))) for q in rule.quantities}
+        yield _proposal("moved part", f"The {label} splayed{instead}", source, procedure, rule, ranges, members)
 
 
 def _with_pieces(

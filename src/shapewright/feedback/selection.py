@@ -121,8 +121,9 @@ def _glanced(
     try:
         with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
             if unchanged(new, known):
-                starts = begun(new, {m.row: idea.candidates(m) for m in some}, judge)
-                stands = Trial.of(starts, judge.settings.threshold).standing({m.row: m.replica for m in some}).distances
+                before = {m.row: m.replica for m in some}
+                starts = begun(new, {m.row: idea.candidates(m) for m in some}, judge, before)
+                stands = Trial.of(starts, judge.settings.threshold).standing(before).distances
                 starts = {row: starts[row] for row in stands}
                 yield _Glanced(idea, starts, _promise(idea, misfits, {m.row: _way(m, starts) for m in some}))
     except (EditError, ProcedureError):
@@ -180,7 +181,7 @@ def _confirmed(
     with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
         space, scalars = new.procedure.space, int(new.procedure.space.scalars.sum())
         rest = {m.row: idea.candidates(m) for m in misfits if m.row not in glanced.starts}
-        starts = {**glanced.starts, **begun(new, rest, judge)}
+        starts = {**glanced.starts, **begun(new, rest, judge, before)}
         trial = Trial.of(starts, judge.settings.threshold).standing(before)
         fresh = [name for name in space.names if name not in procedure.space.names]
         left, held = evaluations, 0
@@ -196,7 +197,7 @@ def _confirmed(
                 held = len(trial.compatible)
                 mixed = _afforded(mixtures(space, trial, trial.parameters), int(_MIXED * left))
                 left -= sum(len(several) for several in mixed.values())
-                trial = trial.joined(Trial.of(begun(new, mixed, judge), trial.threshold)).standing(before)
+                trial = trial.joined(Trial.of(begun(new, mixed, judge, before), trial.threshold)).standing(before)
             free = scalars if only is None else len(only)
             rows = _near(trial, aim, PROMISING if idea.rule else _FAR)[: left // min(budget.evaluations(free), _LEAST)]
             if rows and free:

@@ -68,11 +68,8 @@ class Trial:
 
     def standing(self, before: Mapping[int, Mesh]) -> Trial:
         """Without the replicas that are in more pieces than those before: nothing may float."""
-        rows = [
-            row
-            for row, distance in self.distances.items()
-            if distance > PROMISING * self.threshold or separate(self.replicas[row]) <= separate(before[row])
-        ]
+        near = PROMISING * self.threshold  # whether others float does not matter
+        rows = [row for row, away in self.distances.items() if away > near or _stands(self.replicas[row], before[row])]
         return replace(self, distances={row: self.distances[row] for row in rows})
 
     def joined(self, other: Trial) -> Trial:
@@ -105,20 +102,32 @@ def changed(source: str, procedure: Procedure, judge: Judge, crew: Workers | Non
             yield crew
 
 
-def begun(crew: Workers, candidates: Mapping[int, Sequence[Parameters]], judge: Judge) -> dict[int, Start]:
+def _stands(mesh: Mesh, before: Mesh) -> bool:
+    return separate(mesh) <= separate(before)
+
+
+def begun(
+    crew: Workers, candidates: Mapping[int, Sequence[Parameters]], judge: Judge, before: Mapping[int, Mesh]
+) -> dict[int, Start]:
     """The nearest of some candidates for each reference (by index), moved into the Ranges and built as they are.
 
-    References of which nothing can be built are left out.
+    Where several are given, one that is in no more pieces than the replica before. References of which nothing can be
+    built are left out.
     """
     space = crew.procedure.space
     asked = [(row, space.carry(values)) for row, several in candidates.items() for values in several]
     builds = crew.build([values for _, values in asked])
     pairs = zip(asked, builds, strict=True)
     made = [(row, build.parameters, build.shape) for (row, _), build in pairs if isinstance(build.shape, Mesh)]
-    starts: dict[int, Start] = {}
+    several: dict[int, list[Start]] = {}
     for cost, (row, values, mesh) in zip(judge.search_costs([(row, m) for row, _, m in made]), made, strict=True):
-        if np.isfinite(cost) and (row not in starts or cost < starts[row].cost):
-            starts[row] = Start(values, mesh, cost)
+        if np.isfinite(cost):
+            several.setdefault(row, []).append(Start(values, mesh, cost))
+    starts: dict[int, Start] = {}
+    for row, choices in several.items():
+        choices.sort(key=lambda start: start.cost)
+        standing = (start for start in choices if _stands(start.mesh, before[row])) if len(choices) > 1 else ()
+        starts[row] = next(iter(standing), choices[0])
     return starts
 
 

@@ -120,6 +120,32 @@ def drawing_in(
     return Rule(name, None, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
 
 
+def splaying(
+    label: str,
+    scales: Sequence[tuple[float, float]],
+    removed: Sequence[str],
+    everywhere: bool,
+    free: Callable[[str], str],
+    note: str,
+) -> Rule:
+    """A rule that moves the low end of a part away from its middle. everywhere: whether all shapes have the part."""
+    plain = _plain(label)
+    quantities = tuple(
+        Quantity(free(f"{plain}_splay_{axis}"), tuple(scale[i] for scale in scales)) for i, axis in enumerate("xz")
+    )
+    x, z = (quantity.name for quantity in quantities)
+    name = free(f"splay_{plain}")
+    rest = f"shape.without({', '.join(map(quoted, [label, *removed]))})"
+    lines = [
+        f"def {name}(shape, {x}, {z}):",
+        f'"""{note}"""',
+        *([] if everywhere else [f"if {quoted(label)} not in shape.label_names:", "    return shape"]),
+        f'return {rest} | shape.part({quoted(label)}).taper(({x}, {z}), "-y")',
+    ]
+    flag = free(f"{plain}_splayed") if removed else None
+    return Rule(name, flag, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
+
+
 def removal(label: str, free: Callable[[str], str]) -> Rule:
     """A rule that makes a part optional."""
     flag = free(f"with_{_plain(label)}")

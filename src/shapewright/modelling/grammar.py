@@ -208,11 +208,16 @@ class Derivation:
 
         return joined(self._leaves(), self.tolerance, (by or _naming.get()) == "rule")
 
+    @property
+    def label_names(self) -> tuple[str, ...]:
+        """The labels of its boxes."""
+        return tuple(dict.fromkeys(leaf.label for leaf in self._leaves() if leaf.label))
+
     def part(self, name: str) -> Solid:
         """The boxes that bear a label, as a solid: ``part("top").bounds``. Raises ValueError when there is none."""
         found = [leaf for leaf in self._leaves() if leaf.label == name]
         if not found:
-            labels = ", ".join(dict.fromkeys(leaf.label for leaf in self._leaves() if leaf.label)) or "none"
+            labels = ", ".join(self.label_names) or "none"
             raise ValueError(f"part: no box is labelled {name!r}; the labels are: {labels}")
         return self._solid(found)
 

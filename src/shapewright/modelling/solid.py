@@ -38,6 +38,11 @@ class Solid:
         """The solids that it was united from, moved, cut and deformed as the whole was since."""
         return self.split() if self.split else (self,)
 
+    @property
+    def label_names(self) -> tuple[str, ...]:
+        """The labels of its pieces."""
+        return tuple(dict.fromkeys(self.labels.values()))
+
     def part(self, name: str) -> Solid:
         """Its pieces that bear a label, whole, not only what of them can be seen: ``table.part("top").bounds``.
 
@@ -45,7 +50,7 @@ class Solid:
         """
         found = [piece for piece in self.pieces if name in piece.labels.values()]
         if not found:
-            labels = ", ".join(dict.fromkeys(self.labels.values())) or "none"
+            labels = ", ".join(self.label_names) or "none"
             raise ValueError(f"part: no piece is labelled {name!r}; the labels are: {labels}")
         return union(*found)
 
