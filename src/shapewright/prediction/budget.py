@@ -91,7 +91,7 @@ THOROUGH = Budget(
         *(*_exact(0.06, 3), *_OTHERS),
         *(*_exact(0.06, 2), *_OTHERS),
         *(*_exact(0.04, 2), *_exact(0.025, 2), *_OTHERS),
-        *(*_exact(0.025, 2), *_OTHERS),
+        *(*_exact(0.025, 2), *_OTHERS) * 2,
         *(*_exact(0.025, 2), *_exact(0.015, 3)),
     )
 )
