@@ -60,7 +60,7 @@ def test_a_search_may_leave_some_scalars_as_they_are(post, judge):
 def test_the_nearest_candidate_is_where_a_search_begins(post, judge):
     with Workers(post, 1) as crew:
         candidates = {0: [START, {**START, "height": 0.5}], 1: [{**START, "height": 9.0}]}
-        starts = begun(crew, candidates, judge, dict.fromkeys(candidates, post(**START)))
+        starts = begun(crew, candidates, judge, dict.fromkeys(candidates, 1))
     assert starts[0].parameters["height"] == 0.5 and starts[1].parameters["height"] == 1.0
     assert starts[0].cost < 0.18 * 15_000 < starts[1].cost
     trial = Trial.of(starts, 0.18)
@@ -104,7 +104,7 @@ def test_references_lend_each_other_their_choices(post):
         starts = {0: {**START, "round": True}, 1: {**START, "round": False}}
         alone = tried(crew, starts, judge, [GLANCE])
         alone = Trial(alone.parameters, alone.replicas, {**alone.distances, 1: 0.5}, alone.threshold)
-        begin = begun(crew, mixtures(crew.procedure.space, alone, starts), judge, {1: box(1.0).mesh()})
+        begin = begun(crew, mixtures(crew.procedure.space, alone, starts), judge, {1: 1})
         assert list(begin) == [1] and begin[1].parameters["round"]
         together = alone.joined(tried(crew, {1: begin[1].parameters}, judge, [GLANCE, SEARCH]))
         assert mixtures(crew.procedure.space, Trial({}, {}, {}, 0.18), starts) == {}
@@ -118,13 +118,13 @@ def test_a_candidate_that_falls_apart_gives_way_to_one_that_stands(post, judge):
     )
     apart, whole = {"height": 0.8, "wide": True}, {"height": 0.4, "wide": False}
     with changed(source, post, judge) as crew:
-        several = begun(crew, {1: [apart, whole]}, judge, {1: post(**START)})
-        (cheapest,) = begun(crew, {1: [apart]}, judge, {1: post(**START)}).values()
-        falling = begun(crew, {1: [apart, whole]}, judge, {1: cheapest.mesh})
+        several = begun(crew, {1: [apart, whole]}, judge, {1: 1})
+        (cheapest,) = begun(crew, {1: [apart]}, judge, {1: 1}).values()
+        falling = begun(crew, {1: [apart, whole]}, judge, {1: 2})
     assert several[1].parameters == whole and falling[1].parameters == apart and several[1].cost > cheapest.cost
 
 
 def test_replicas_that_fall_apart_do_not_count():
     whole, apart = box(1.0).mesh(), box(1.0).array(2, (3, 0, 0)).mesh()
     trial = Trial({0: {}, 1: {}, 2: {}}, {0: whole, 1: apart, 2: apart}, {0: 0.1, 1: 0.1, 2: 0.1}, 0.18)
-    assert trial.standing({0: whole, 1: whole, 2: apart}).compatible == (0, 2)
+    assert trial.standing({0: 1, 1: 1, 2: 2}).compatible == (0, 2)

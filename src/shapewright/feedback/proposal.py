@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
+from shapewright.feedback.attachment import separate
 from shapewright.feedback.hypotheses import Hypothesis
 from shapewright.feedback.ranges import End, pressed
 from shapewright.feedback.wording import Rule
@@ -36,6 +38,11 @@ class Misfit:
     goal: float = THRESHOLD * RAW_SCALE
     wide: Parameters | None = None
     before: float = np.inf
+
+    @cached_property
+    def pieces(self) -> int:
+        """Into how many pieces its replica falls."""
+        return separate(self.replica)
 
     def pressed(self, space: ParameterSpace) -> set[End]:
         """The ends of Ranges that the nearest parameters rest on."""

@@ -36,7 +36,7 @@ WIDE = Budget(
 )
 RANDOM = 256
 """Random shapes among which the most similar to a reference is looked up."""
-EVALUATIONS = 4_200
+EVALUATIONS = 3_600
 """Shapes built for all references together, at most about: few misfits are searched for longer than many."""
 _ENOUGH = 0.9  # of the threshold: in the pose they share, distances are upper bounds of what is judged
 _CLOSE = 0.4  # of the threshold: beyond a Range the surfaces have to come together as well

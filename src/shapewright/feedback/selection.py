@@ -121,9 +121,9 @@ def _glanced(
     try:
         with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
             if unchanged(new, known):
-                before = {m.row: m.replica for m in some}
-                starts = begun(new, {m.row: idea.candidates(m) for m in some}, judge, before)
-                stands = Trial.of(starts, judge.settings.threshold).standing(before).distances
+                pieces = {m.row: m.pieces for m in some}
+                starts = begun(new, {m.row: idea.candidates(m) for m in some}, judge, pieces)
+                stands = Trial.of(starts, judge.settings.threshold).standing(pieces).distances
                 starts = {row: starts[row] for row in stands}
                 yield _Glanced(idea, starts, _promise(idea, misfits, {m.row: _way(m, starts) for m in some}))
     except (EditError, ProcedureError):
@@ -177,12 +177,12 @@ def _confirmed(
     crew: Workers, procedure: Procedure, glanced: _Glanced, misfits: Sequence[Misfit], judge: Judge, evaluations: int
 ) -> Trial:
     """What the proposal gives for all misfits: built as it is, with the choices that suit others, and searched for."""
-    idea, before = glanced.proposal, {m.row: m.replica for m in misfits}
+    idea, pieces = glanced.proposal, {m.row: m.pieces for m in misfits}
     with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
         space, scalars = new.procedure.space, int(new.procedure.space.scalars.sum())
         rest = {m.row: idea.candidates(m) for m in misfits if m.row not in glanced.starts}
-        starts = {**glanced.starts, **begun(new, rest, judge, before)}
-        trial = Trial.of(starts, judge.settings.threshold).standing(before)
+        starts = {**glanced.starts, **begun(new, rest, judge, pieces)}
+        trial = Trial.of(starts, judge.settings.threshold).standing(pieces)
         fresh = [name for name in space.names if name not in procedure.space.names]
         left, held = evaluations, 0
         turns: list[tuple[Budget, Sequence[str] | None, float]] = [
@@ -197,7 +197,7 @@ def _confirmed(
                 held = len(trial.compatible)
                 mixed = _afforded(mixtures(space, trial, trial.parameters), int(_MIXED * left))
                 left -= sum(len(several) for several in mixed.values())
-                trial = trial.joined(Trial.of(begun(new, mixed, judge, before), trial.threshold)).standing(before)
+                trial = trial.joined(Trial.of(begun(new, mixed, judge, pieces), trial.threshold)).standing(pieces)
             free = scalars if only is None else len(only)
             rows = _near(trial, aim, PROMISING if idea.rule else _FAR)[: left // min(budget.evaluations(free), _LEAST)]
             if rows and free:
@@ -205,7 +205,7 @@ def _confirmed(
                 left -= len(rows) * within.evaluations(free)
                 begin, seed = {row: trial.parameters[row] for row in rows}, judge.settings.seed + turn
                 found = tried(new, begin, judge, [within], seed, ENOUGH * aim, only)
-                trial = trial.joined(found).standing(before)
+                trial = trial.joined(found).standing(pieces)
     return trial
 
 

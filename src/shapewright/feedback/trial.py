@@ -66,10 +66,12 @@ class Trial:
     def compatible(self) -> tuple[int, ...]:
         return tuple(row for row, distance in self.distances.items() if distance <= self.threshold)
 
-    def standing(self, before: Mapping[int, Mesh]) -> Trial:
-        """Without the replicas that are in more pieces than those before: nothing may float."""
+    def standing(self, pieces: Mapping[int, int]) -> Trial:
+        """Without the replicas that fall into more pieces than they may: nothing may float."""
         near = PROMISING * self.threshold  # whether others float does not matter
-        rows = [row for row, away in self.distances.items() if away > near or _stands(self.replicas[row], before[row])]
+        rows = [
+            row for row, away in self.distances.items() if away > near or separate(self.replicas[row]) <= pieces[row]
+        ]
         return replace(self, distances={row: self.distances[row] for row in rows})
 
     def joined(self, other: Trial) -> Trial:
@@ -102,17 +104,13 @@ def changed(source: str, procedure: Procedure, judge: Judge, crew: Workers | Non
             yield crew
 
 
-def _stands(mesh: Mesh, before: Mesh) -> bool:
-    return separate(mesh) <= separate(before)
-
-
 def begun(
-    crew: Workers, candidates: Mapping[int, Sequence[Parameters]], judge: Judge, before: Mapping[int, Mesh]
+    crew: Workers, candidates: Mapping[int, Sequence[Parameters]], judge: Judge, pieces: Mapping[int, int]
 ) -> dict[int, Start]:
     """The nearest of some candidates for each reference (by index), moved into the Ranges and built as they are.
 
-    Where several are given, one that is in no more pieces than the replica before. References of which nothing can be
-    built are left out.
+    Where several are given, one that falls into no more pieces than it may. References of which nothing can be built
+    are left out.
     """
     space = crew.procedure.space
     asked = [(row, space.carry(values)) for row, several in candidates.items() for values in several]
@@ -126,7 +124,7 @@ def begun(
     starts: dict[int, Start] = {}
     for row, choices in several.items():
         choices.sort(key=lambda start: start.cost)
-        standing = (start for start in choices if _stands(start.mesh, before[row])) if len(choices) > 1 else ()
+        standing = (start for start in choices if separate(start.mesh) <= pieces[row]) if len(choices) > 1 else ()
         starts[row] = next(iter(standing), choices[0])
     return starts
 
