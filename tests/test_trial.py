@@ -35,9 +35,9 @@ START = {"height": 0.8, "wide": False}
 
 def test_a_trial_searches_each_reference_and_judges_it(post, judge):
     with Workers(post, 1) as crew:
-        first = tried(crew, {0: START, 1: START}, judge, [GLANCE, SEARCH])
-        again = tried(crew, {0: START, 1: START}, judge, [GLANCE, SEARCH])
-        only = tried(crew, {1: START}, judge, [])
+        first = tried(crew, {0: START, 1: START}, judge, SEARCH)
+        again = tried(crew, {0: START, 1: START}, judge, SEARCH)
+        only = tried(crew, {1: START}, judge, None)
     assert first.parameters == again.parameters and first.distances == again.distances
     assert first.compatible == (0,) and first.distances[1] < only.distances[1]
     assert only.parameters == {1: START} and first.parameters[1]["height"] > 0.95
@@ -51,8 +51,8 @@ def test_a_search_may_leave_some_scalars_as_they_are(post, judge):
         post,
         judge,
     ) as crew:
-        found = tried(crew, {0: start}, judge, [GLANCE, SEARCH], only=["height"])
-        both = tried(crew, {0: start}, judge, [GLANCE, SEARCH])
+        found = tried(crew, {0: start}, judge, SEARCH, only=["height"])
+        both = tried(crew, {0: start}, judge, SEARCH)
     assert found.parameters[0]["depth"] == pytest.approx(0.3) and found.parameters[0]["height"] > 0.35
     assert both.distances[0] <= found.distances[0]
 
@@ -73,7 +73,7 @@ def test_the_nearest_candidate_is_where_a_search_begins(post, judge):
 def test_a_changed_procedure_lives_as_long_as_the_trial(post, judge):
     with changed(POST.replace("1.0)]", "4.0)]"), post, judge) as crew:
         path = crew.procedure.path
-        found = tried(crew, {1: START}, judge, [GLANCE, SEARCH])
+        found = tried(crew, {1: START}, judge, SEARCH)
         assert found.compatible == (1,) and found.parameters[1]["height"] > 1.5 and path.exists()
     assert not path.exists()
     with pytest.raises(ProcedureError), changed("nothing here", post, judge):
@@ -102,11 +102,11 @@ def test_references_lend_each_other_their_choices(post):
     judge = Judge.of(sw.Collection.of(shapes), sw.Settings(workers=1))
     with changed(CHOICE.replace("import box", "import box, cylinder"), post, judge) as crew:
         starts = {0: {**START, "round": True}, 1: {**START, "round": False}}
-        alone = tried(crew, starts, judge, [GLANCE])
+        alone = tried(crew, starts, judge, GLANCE)
         alone = Trial(alone.parameters, alone.replicas, {**alone.distances, 1: 0.5}, alone.threshold)
         begin = begun(crew, mixtures(crew.procedure.space, alone, starts), judge, {1: 1})
         assert list(begin) == [1] and begin[1].parameters["round"]
-        together = alone.joined(tried(crew, {1: begin[1].parameters}, judge, [GLANCE, SEARCH]))
+        together = alone.joined(tried(crew, {1: begin[1].parameters}, judge, SEARCH))
         assert mixtures(crew.procedure.space, Trial({}, {}, {}, 0.18), starts) == {}
     assert alone.compatible == (0,) and together.compatible == (0, 1)
     assert together.parameters[1]["round"] and together.parameters[0] == alone.parameters[0]

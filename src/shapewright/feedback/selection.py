@@ -160,7 +160,7 @@ def _led(
     if not near:
         return glanced
     with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
-        trial = tried(new, {row: starts[row].parameters for row in near}, judge, [budget], judge.settings.seed)
+        trial = tried(new, {row: starts[row].parameters for row in near}, judge, budget, judge.settings.seed)
     better = {
         row: Start(trial.parameters[row], trial.replicas[row], trial.distances[row] * RAW_SCALE)
         for row in near
@@ -204,7 +204,7 @@ def _confirmed(
                 within = budget.within(left / len(rows), free)
                 left -= len(rows) * within.evaluations(free)
                 begin, seed = {row: trial.parameters[row] for row in rows}, judge.settings.seed + turn
-                found = tried(new, begin, judge, [within], seed, ENOUGH * aim, only)
+                found = tried(new, begin, judge, within, seed, ENOUGH * aim, only)
                 trial = trial.joined(found).standing(pieces)
     return trial
 
@@ -251,9 +251,9 @@ def _judged(crew: Workers, procedure: Procedure, found: Tried, judge: Judge) -> 
     try:
         source = found.proposal.write(found.ranges)
         with changed(source, procedure, judge, crew) as new:
-            trial = tried(new, made, judge, [], judge.settings.seed)
+            trial = tried(new, made, judge, None, judge.settings.seed)
             lost = {row: made[row] for row in made if row not in trial.compatible}
-            trial = trial.joined(tried(new, lost, judge, [SEARCH], judge.settings.seed))
+            trial = trial.joined(tried(new, lost, judge, SEARCH, judge.settings.seed))
     except (EditError, ProcedureError):
         return
     if trial.compatible:

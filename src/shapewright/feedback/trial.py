@@ -133,36 +133,29 @@ def tried(
     crew: Workers,
     starts: Mapping[int, Parameters],
     judge: Judge,
-    budgets: Sequence[Budget],
+    budget: Budget | None,
     seed: int = 0,
     enough: float = ENOUGH,
     only: Collection[str] | None = None,
 ) -> Trial:
     """Search for each reference (by index) from the parameters given, and judge what is found.
 
-    budgets: one after the other, the later ones only for references that come near; none to judge the parameters
-    themselves, moved into the procedure's Ranges. enough: of the threshold, at which a search ends. only: names of the
-    scalars that it may change, by default all.
+    budget: None to judge the parameters themselves, moved into the procedure's Ranges. enough: of the threshold, at
+    which a search ends. only: names of the scalars that it may change, by default all.
     """
-    best: dict[int, _Found] = {}
-    space = crew.procedure.space
-    rows, vectors = list(starts), [space.carry(values) for values in starts.values()]
-    if not budgets:
-        _judge(best, rows, vectors, crew, judge)
-    for number, budget in enumerate(budgets):
-        if rows:
-            fields = [best[row].field if row in best else 0 for row in rows]
-            measure, goal = judge.measure(rows, fields), enough * judge.goal
-            vectors = _refined(space, crew, measure, vectors, budget, goal, seed + number, only)
-            _judge(best, rows, vectors, crew, judge)
-            rows = [row for row in rows if row in best and _worth_more(best[row].distance, judge)]
-            vectors = [best[row].parameters for row in rows]
-    return Trial(
-        {row: found.parameters for row, found in best.items()},
-        {row: found.replica for row, found in best.items()},
-        {row: found.distance for row, found in best.items()},
-        judge.settings.threshold,
-    )
+    space, rows = crew.procedure.space, list(starts)
+    vectors = [space.carry(values) for values in starts.values()]
+    if budget and rows:
+        goal = enough * judge.goal
+        vectors = _refined(space, crew, judge.measure(rows), vectors, budget, goal, seed, only)
+    builds = crew.build(vectors)
+    parameters: dict[int, Parameters] = {}
+    replicas: dict[int, Mesh] = {}
+    distances: dict[int, float] = {}
+    for row, build, distance in zip(rows, builds, judge.distances(builds, rows), strict=True):
+        if isinstance(build.shape, Mesh) and np.isfinite(distance):
+            parameters[row], replicas[row], distances[row] = build.parameters, build.shape, float(distance)
+    return Trial(parameters, replicas, distances, judge.settings.threshold)
 
 
 def mixtures(space: ParameterSpace, trial: Trial, starts: Mapping[int, Parameters]) -> dict[int, list[Parameters]]:
@@ -218,28 +211,6 @@ def _area(a: Mesh, b: Mesh) -> float:
         for m in (a, b)
     ]
     return abs(areas[0] - areas[1]) / max(areas[1], 1e-12)
-
-
-@dataclass(frozen=True, eq=False)
-class _Found:
-    parameters: Parameters
-    replica: Mesh
-    distance: float
-    field: int
-
-
-def _judge(
-    best: dict[int, _Found], rows: Sequence[int], vectors: Sequence[Parameters], crew: Workers, judge: Judge
-) -> None:
-    """Build and judge one vector for each row, and keep it where it is nearer than what is there."""
-    builds = crew.build(vectors)
-    for row, build, distance, field in zip(rows, builds, *judge.nearest(builds, rows), strict=True):
-        if isinstance(build.shape, Mesh) and distance < (best[row].distance if row in best else np.inf):
-            best[row] = _Found(build.parameters, build.shape, float(distance), int(field))
-
-
-def _worth_more(distance: float, judge: Judge) -> bool:
-    return judge.settings.threshold < distance <= PROMISING * judge.settings.threshold
 
 
 def _refined(
