@@ -58,6 +58,11 @@ def test_legs_that_lean_outwards_where_a_runner_goes():
     assert best.splayed == ("legs",) and best.removed == ("runner",) and best.scale == (1.7, 1.0)
 
 
+def test_only_what_stands_on_the_floor_leans():
+    sloping = top().taper((1.4, 1.0), "-y").label("top")
+    assert not any(each.splayed for each in found((sloping | legs()).mesh(), (top() | legs()).mesh()))
+
+
 def test_nothing_is_proposed_for_equal_shapes():
     mesh = (top() | legs()).mesh()
     assert found(mesh, mesh) == []

@@ -36,6 +36,7 @@ _EVEN = 0.93
 _BREADTH = 0.1
 _INSETS = (0.62, 0.71, 0.82, 0.91)
 _SPLAY, _SPLAYS = 1.4, (0.7, 1.2, 1.7, 2.1)
+_FLOOR, _TALL = 0.05, 0.15  # of the largest extent: how low a part that may lean begins, and how tall it is at least
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,11 +134,18 @@ def _simple(replica: Mesh, blank: Hypothesis) -> Iterator[Hypothesis]:
         if len(replica.label_names) > 1:
             yield replace(blank, removed=(label,))
             yield from (replace(blank, inset=(label,), scale=scale) for scale in _scales(s))
-            yield from (replace(blank, splayed=(label,), scale=scale) for scale in _scales(_SPLAY))
+            if _carries(replica, bounds):
+                yield from (replace(blank, splayed=(label,), scale=scale) for scale in _scales(_SPLAY))
         middle = (float(bounds[:, 0].mean()), float(bounds[:, 2].mean()))
         for kind in ("cylinder", "box"):
             yield replace(blank, removed=(label,), pieces=(Piece(kind, bounds[0], bounds[1], middle=middle),))
         yield from (replace(blank, removed=(label,), pieces=(piece,)) for piece in _radial(bounds, middle))
+
+
+def _carries(replica: Mesh, part: Floats) -> bool:
+    """Whether a part with these bounds stands on the floor, and is more than a foot."""
+    low, high = (part[:, 1] - replica.bounds[0, 1]) / replica.extent.max()
+    return bool(low < _FLOOR and high - low > _TALL)
 
 
 def _scales(s: float) -> Iterator[tuple[float, float]]:
@@ -156,7 +164,8 @@ def _further(tried: Sequence[Hypothesis], replica: Mesh, blank: Hypothesis) -> I
     gone = [each for each in tried if each.removed and not each.pieces and each.cost < blank.before]
     for each in sorted(gone, key=lambda each: each.cost)[:1]:
         for label in replica.label_names:
-            if label not in each.removed:
+            bounds = _bounds(replica, label)
+            if label not in each.removed and bounds is not None and _carries(replica, bounds):
                 yield from (replace(each, splayed=(label,), scale=scale, cost=np.inf) for scale in _scales(_SPLAY))
     forms = [each for each in tried if each.pieces and each.pieces[0].kind != "spokes"]
     several = len({each.removed for each in forms}) > 1
