@@ -88,7 +88,10 @@ def explanation(procedure):
             box((1, 0.06, 0.6), at=(0, 0.57, 0)) | box((0.06, 0.6, 0.06), at=(0.47, 0.3, 0.27)).mirror("z", keep=True)
         ).mesh(),
     }
+    legs = box((0.06, 0.6, 0.06), at=(0.47, 0.3, 0.27)).mirror("x", keep=True).mirror("z", keep=True)
+    shapes["leaning"] = (box((1, 0.06, 0.6), at=(0, 0.57, 0)) | legs.taper(0.2, "-y")).mesh()
     found = {
+        "leaning": four,
         "fine": four,
         "misjudged": four,
         "badly": {**four, "height": 0.45, "breadth": 0.95},
@@ -138,6 +141,14 @@ def test_a_missing_part_and_a_surplus_one(explanation):
     missing, surplus = chief(explanation, "shelved"), chief(explanation, "lame")
     assert missing.kind == "missing part" and missing.evidence["unexplained"] > 0.2
     assert surplus.kind == "surplus part" and surplus.evidence["label"] == "legs"
+
+
+def test_legs_that_lean_are_another_form_of_them(explanation):
+    cause = chief(explanation, "leaning")
+    assert cause.kind == "wrong form" and cause.evidence["label"] == "legs"
+    assert "leaning inwards, 0.2 times as far apart at the floor" in cause.text
+    assert cause.evidence["apart"] < 0.7 * cause.evidence["before"]
+    assert not any(other.kind == "missing part" for other in explanation.references["leaning"].causes)
 
 
 def test_the_record_is_plain_and_whole(explanation):

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from shapewright.feedback.leaning import Leaning
 from shapewright.feedback.ranges import Wish, beyond
 from shapewright.feedback.residuals import Residuals
 from shapewright.feedback.search import Found
@@ -26,6 +27,7 @@ _BARELY = 0.8  # of the threshold
 _LACKING = 0.01  # share of the surface times distance, of a missing or surplus part that is beyond doubt
 _TOGETHER = 0.75  # of what lies apart within the space
 _CLOSE = 0.5  # of the threshold: nearer than shapes come that make up for something else
+_LEANS = 0.7  # of what lies apart, that is left at most where a part leans
 _FAR = 1.25  # thresholds: an outlier that comes nearer than this is only an unusual shape
 
 
@@ -45,7 +47,8 @@ class Evidence:
     before: what the iteration found; inside: what a longer search found within the space, outside: with longer Ranges;
     laid: the shape within the space whose surface has most in common with the reference's, and its residuals.
     laid_apart, outside_apart: how much of the surfaces lies apart, see ``placement.Overlay``. isolation: of a reference
-    that is unlike all others, the mean distance to the nearest of them; None for any other.
+    that is unlike all others, the mean distance to the nearest of them; None for any other. leaning: the part that
+    brings the surfaces together most when it leans, where that was tried.
     """
 
     before: Found
@@ -56,6 +59,7 @@ class Evidence:
     laid_apart: float
     outside_apart: float
     isolation: float | None
+    leaning: Leaning | None = None
 
 
 def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Cause, ...]:
@@ -67,6 +71,8 @@ def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Ca
     """
     told = differences(found.residuals)
     parts = [Cause(part.kind, part.text, part.evidence) for part in told]
+    if found.leaning and parts[0].kind == "missing part" and found.leaning.apart < _LEANS * found.laid_apart:
+        parts = [_leans(found.leaning, found.laid_apart), *(part for part in parts if part.kind == "surplus part")]
     lacking = told[0].kind != "wrong form" and told[0].weight > _LACKING
     if found.inside.distance <= threshold:
         overlooked = _overlooked(space, found.before, found.inside)
@@ -79,6 +85,13 @@ def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Ca
     if found.isolation is not None and found.inside.distance > _FAR * threshold:
         return (_strange(found.isolation), *parts, *ranges)
     return (*parts, *ranges)
+
+
+def _leans(found: Leaning, before: float) -> Cause:
+    way = "inwards" if found.factor < 1.0 else "outwards"
+    text = f"another form of {found.label}: leaning {way}, {found.factor:g} times as far apart at the floor"
+    evidence = {"label": found.label, "factor": found.factor, "apart": found.apart, "before": before}
+    return Cause("wrong form", f"{text}; {found.apart / before:.0%} of what lies apart is left", evidence)
 
 
 def _overlooked(space: ParameterSpace, before: Found, found: Found) -> Cause:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.feedback.causes import Cause, Evidence, causes
+from shapewright.feedback.leaning import leaning
 from shapewright.feedback.outliers import isolation, outliers
 from shapewright.feedback.placement import Overlay, place
 from shapewright.feedback.residuals import Region, Residuals, residuals
@@ -190,9 +191,8 @@ def _causes(
     differences = _residuals(theirs, [best.mesh for best in laid], settings.workers)
     vectors = [best.parameters for best in laid]
     differences = with_rules(searcher.crew.procedure, vectors, differences, settings.workers, searcher.crew.limits)
-    told = {}
-    for i, row in enumerate(rows):
-        evidence = Evidence(
+    evidence = [
+        Evidence(
             before[i],
             inside[i],
             outside[row],
@@ -202,9 +202,14 @@ def _causes(
             overlays[row](outside[row].mesh),
             float(alone[row]) if strange[row] else None,
         )
-        why = causes(searcher.space, searcher.threshold, evidence)
-        told[row] = _Why(inside[i], laid[i], differences[i], why, outside[row])
-    return told
+        for i, row in enumerate(rows)
+    ]
+    why = [causes(searcher.space, searcher.threshold, each) for each in evidence]
+    lacking = [i for i, told in enumerate(why) if told[0].kind == "missing part"]
+    some = [laid[i].parameters for i in lacking], [overlays[rows[i]] for i in lacking]
+    for i, lean in zip(lacking, leaning(searcher.space, searcher.crew, *some, settings.workers), strict=True):
+        why[i] = causes(searcher.space, searcher.threshold, replace(evidence[i], leaning=lean))
+    return {row: _Why(inside[i], laid[i], differences[i], why[i], outside[row]) for i, row in enumerate(rows)}
 
 
 def _overlays(references: Sequence[Surface], known: Sequence[Found], threads: int | None) -> list[Overlay]:

@@ -19,6 +19,7 @@ from shapewright.feedback.decomposition import decompose
 from shapewright.feedback.interior import filled
 from shapewright.feedback.pieces import Kind, Piece
 from shapewright.feedback.residuals import NEAR, Residuals
+from shapewright.feedback.supports import bounds_of, splayed, supports
 from shapewright.shapes import Floats, Mesh, concatenate
 
 Costs = Callable[[Sequence[Mesh]], Sequence[float]]
@@ -36,7 +37,6 @@ _EVEN = 0.93
 _BREADTH = 0.1
 _INSETS = (0.62, 0.71, 0.82, 0.91)
 _SPLAY, _SPLAYS = 1.4, (0.7, 1.2, 1.7, 2.1)
-_FLOOR, _TALL = 0.05, 0.15  # of the largest extent: how low a part that may lean begins, and how tall it is at least
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,22 +80,14 @@ def _standing(hypothesis: Hypothesis, replica: Mesh) -> list[Mesh]:
     drawn = np.ones(len(labels), dtype=bool) if hypothesis.inset == (REST,) else np.isin(labels, hypothesis.inset)
     middle = replica.bounds.mean(axis=0)
     factors = np.array([hypothesis.scale[0], 1.0, hypothesis.scale[1]])
-    splayed = [labels == label for label in hypothesis.splayed]
-    stays = ~np.any([drawn, *splayed], axis=0)
+    leans = [labels == label for label in hypothesis.splayed]
+    stays = ~np.any([drawn, *leans], axis=0)
     parts = [
         Mesh(replica.vertices, replica.faces[kept & stays]),
         Mesh((replica.vertices - middle) * factors + middle, replica.faces[kept & drawn]),
-        *(_splayed(Mesh(replica.vertices, replica.faces[faces]), factors) for faces in splayed if faces.any()),
+        *(splayed(Mesh(replica.vertices, replica.faces[faces]), factors) for faces in leans if faces.any()),
     ]
     return [part for part in parts if len(part.faces)]
-
-
-def _splayed(part: Mesh, factors: Floats) -> Mesh:
-    """A part as wide as it is at its high end, by the factors at the low one, and evenly between."""
-    low, high = part.bounds
-    down = (high[1] - part.vertices[:, 1:2]) / max(high[1] - low[1], 1e-9)
-    middle = (low + high) / 2.0
-    return Mesh((part.vertices - middle) * (1.0 + (factors - 1.0) * np.clip(down, 0.0, 1.0)) + middle, part.faces)
 
 
 def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -> list[Hypothesis]:
@@ -127,25 +119,20 @@ def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -
 def _simple(replica: Mesh, blank: Hypothesis) -> Iterator[Hypothesis]:
     """Each part taken away, in another form, or drawn in."""
     s = _INSETS[-2]
+    upright = supports(replica)
     for label in replica.label_names:
-        bounds = _bounds(replica, label)
+        bounds = bounds_of(replica, label)
         if bounds is None:
             continue
         if len(replica.label_names) > 1:
             yield replace(blank, removed=(label,))
             yield from (replace(blank, inset=(label,), scale=scale) for scale in _scales(s))
-            if _carries(replica, bounds):
+            if label in upright:
                 yield from (replace(blank, splayed=(label,), scale=scale) for scale in _scales(_SPLAY))
         middle = (float(bounds[:, 0].mean()), float(bounds[:, 2].mean()))
         for kind in ("cylinder", "box"):
             yield replace(blank, removed=(label,), pieces=(Piece(kind, bounds[0], bounds[1], middle=middle),))
         yield from (replace(blank, removed=(label,), pieces=(piece,)) for piece in _radial(bounds, middle))
-
-
-def _carries(replica: Mesh, part: Floats) -> bool:
-    """Whether a part with these bounds stands on the floor, and is more than a foot."""
-    low, high = (part[:, 1] - replica.bounds[0, 1]) / replica.extent.max()
-    return bool(low < _FLOOR and high - low > _TALL)
 
 
 def _scales(s: float) -> Iterator[tuple[float, float]]:
@@ -163,9 +150,8 @@ def _further(tried: Sequence[Hypothesis], replica: Mesh, blank: Hypothesis) -> I
                 yield replace(blank, inset=each.inset, scale=scale)
     gone = [each for each in tried if each.removed and not each.pieces and each.cost < blank.before]
     for each in sorted(gone, key=lambda each: each.cost)[:1]:
-        for label in replica.label_names:
-            bounds = _bounds(replica, label)
-            if label not in each.removed and bounds is not None and _carries(replica, bounds):
+        for label in supports(replica):
+            if label not in each.removed:
                 yield from (replace(each, splayed=(label,), scale=scale, cost=np.inf) for scale in _scales(_SPLAY))
     forms = [each for each in tried if each.pieces and each.pieces[0].kind != "spokes"]
     several = len({each.removed for each in forms}) > 1
@@ -189,12 +175,6 @@ def _radial(bounds: Floats, middle: tuple[float, float]) -> Iterator[Piece]:
         for count in COUNTS:
             for turn in turns(count):
                 yield Piece("spokes", bounds[0], bounds[1], middle=middle, count=count, breadth=_BREADTH, turn=turn)
-
-
-def _bounds(replica: Mesh, label: str) -> Floats | None:
-    assert replica.face_labels is not None
-    faces = replica.faces[replica.face_labels == replica.label_names.index(label)]
-    return Mesh(replica.vertices, faces).bounds if len(faces) else None
 
 
 def _surplus(found: Residuals, replica: Mesh) -> tuple[str, ...]:
@@ -244,7 +224,7 @@ def _pruned(hypothesis: Hypothesis, replica: Mesh, costs: Costs) -> Hypothesis:
     while True:
         shorter = [replace(hypothesis, pieces=_less(hypothesis.pieces, i)) for i in range(len(hypothesis.pieces))]
         for label in hypothesis.removed:
-            bounds = _bounds(replica, label)
+            bounds = bounds_of(replica, label)
             kept = tuple(p for p in hypothesis.pieces if bounds is None or _overlap(p, bounds) < _OVERLAP)
             shorter.append(replace(hypothesis, removed=tuple(r for r in hypothesis.removed if r != label), pieces=kept))
         shorter = [each for each in shorter if each.pieces or each.removed]

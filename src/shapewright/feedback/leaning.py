@@ -1,0 +1,61 @@
+"""Parts that stand in the reference as they could in a replica, but lean: no search among upright parts finds them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from shapewright.building import Workers
+from shapewright.feedback.hypotheses import Hypothesis, applied
+from shapewright.feedback.placement import Overlay
+from shapewright.feedback.supports import supports
+from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.prediction.combinations import others
+from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
+
+_FACTORS = (0.2, 0.4, 0.7, 1.4, 1.8)
+_SHAPES = 600  # built for all references together, at most about
+
+
+@dataclass(frozen=True)
+class Leaning:
+    """label: of the part. factor: how far apart its foot stands, in units of its head. apart: how much of the surfaces
+    lies apart then, see ``placement.Overlay``.
+    """
+
+    label: str
+    factor: float
+    apart: float
+
+
+def leaning(
+    space: ParameterSpace,
+    crew: Workers,
+    found: Sequence[Parameters],
+    overlays: Sequence[Overlay],
+    threads: int | None = None,
+) -> list[Leaning | None]:
+    """For each reference the part whose leaning leaves least of the surfaces apart; None where nothing stands.
+
+    Parts are those of the shapes with the parameters found, and with one other choice: where the parts that lean were
+    not recognised, what was found may well stand on others. overlays: of the references.
+    """
+    encoded, each = [space.encode(parameters) for parameters in found], max(1, _SHAPES // max(len(found), 1))
+    vectors = [[centre, *others(space, centre)][:each] for centre in encoded]
+    asked = [(i, space.canonical(space.decode(vector))) for i, several in enumerate(vectors) for vector in several]
+    meshes: list[list[Mesh]] = [[] for _ in found]
+    for (i, _), build in zip(asked, crew.build([values for _, values in asked]), strict=True):
+        if isinstance(build.shape, Mesh):
+            meshes[i].append(build.shape)
+
+    def best(i: int) -> Leaning | None:
+        tried = [
+            Leaning(label, s, overlays[i](applied(Hypothesis(splayed=(label,), scale=(s, s)), mesh)))
+            for mesh in meshes[i]
+            for label in supports(mesh)
+            for s in _FACTORS
+        ]
+        return min(tried, key=lambda lean: lean.apart, default=None)
+
+    return in_threads(best, range(len(found)), threads)
