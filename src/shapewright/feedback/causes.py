@@ -27,7 +27,7 @@ _BARELY = 0.8  # of the threshold
 _LACKING = 0.01  # share of the surface times distance, of a missing or surplus part that is beyond doubt
 _TOGETHER = 0.75  # of what lies apart within the space
 _CLOSE = 0.5  # of the threshold: nearer than shapes come that make up for something else
-_LEANS = 0.7  # of what lies apart, that is left at most where a part leans
+_LEANS = 0.67  # of what lies apart, that is left at most where a part leans
 _FAR = 1.25  # thresholds: an outlier that comes nearer than this is only an unusual shape
 
 
@@ -89,7 +89,7 @@ def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Ca
 
 def _leans(found: Leaning, before: float) -> Cause:
     way = "inwards" if found.factor < 1.0 else "outwards"
-    text = f"another form of {found.label}: leaning {way}, {found.factor:g} times as far apart at the floor"
+    text = f"another form of {found.label}: leaning {way}, {found.factor:.2g} times as far apart at the floor"
     evidence = {"label": found.label, "factor": found.factor, "apart": found.apart, "before": before}
     return Cause("wrong form", f"{text}; {found.apart / before:.0%} of what lies apart is left", evidence)
 

@@ -14,7 +14,7 @@ from shapewright.prediction.combinations import others
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
 
-_FACTORS = (0.2, 0.4, 0.7, 1.4, 1.8)
+_FACTORS, _FINER = (0.2, 0.4, 0.7, 1.4, 1.8), (0.6, 0.8, 1.25)
 _SHAPES = 600  # built for all references together, at most about
 
 
@@ -49,13 +49,17 @@ def leaning(
         if isinstance(build.shape, Mesh):
             meshes[i].append(build.shape)
 
+    def lean(i: int, mesh: Mesh, label: str, factor: float) -> Leaning:
+        splayed = applied(Hypothesis(splayed=(label,), scale=(factor, factor)), mesh)
+        return Leaning(label, factor, overlays[i](splayed))
+
     def best(i: int) -> Leaning | None:
-        tried = [
-            Leaning(label, s, overlays[i](applied(Hypothesis(splayed=(label,), scale=(s, s)), mesh)))
-            for mesh in meshes[i]
-            for label in supports(mesh)
-            for s in _FACTORS
-        ]
-        return min(tried, key=lambda lean: lean.apart, default=None)
+        upright = [(mesh, label) for mesh in meshes[i] for label in supports(mesh)]
+        tried = [(lean(i, *part, factor), part) for part in upright for factor in _FACTORS]
+        if not tried:
+            return None
+        least, part = min(tried, key=lambda each: each[0].apart)
+        nearby = [lean(i, *part, least.factor * finer) for finer in _FINER]
+        return min([least, *nearby], key=lambda each: each.apart)
 
     return in_threads(best, range(len(found)), threads)
