@@ -82,6 +82,7 @@ def test_pieces_that_hypotheses_share_become_one_rule(table, tmp_path):
     for each in misfits:
         start = plate.candidates(each)[0]
         assert start["plate"] is True and procedure(**start).label_names == ("top", "legs", "plate")
+        assert plate.uses(start) and not plate.uses({**start, "plate": False})
     other = misfit(table, 7)
     assert plate.candidates(other)[0]["plate_level"] == pytest.approx(plate.ranges["plate_level"][2])
     needed = narrowed(plate, table.space, [plate.candidates(each)[0] for each in misfits])
@@ -101,6 +102,10 @@ def test_parts_that_go_or_stand_further_in(table, tmp_path):
         assert len(changed().faces) == len(table().faces)
         (row,) = each.starts
         assert changed(**each.candidates(misfit(table, row))[0]).extent.max() > 0
+    (removed,) = [each for each in found if each.kind == "part removed"]
+    assert removed.uses({"with_legs": False}) and not removed.uses({"with_legs": True})
+    (moved,) = [each for each in found if each.kind == "moved part"]
+    assert moved.flag is None and moved.uses({})
     round_top = next(each for each in found if "disc" in each.title)
     assert round_top.title.endswith("the rest drawn in")
     mesh = loads(tmp_path, round_top)(**round_top.candidates(misfit(table, 3))[0])

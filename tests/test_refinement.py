@@ -140,6 +140,8 @@ def test_the_likeliest_vectors_come_in_order_and_mean_different_shapes():
     vectors = likeliest(space, [np.array([0.9, 0.1]), np.array([0.1, 0.2, 0.7]), np.array([0.4, 0.6])], 10)
     assert len(vectors) == 2 + 2 * 3
     assert vectors[0].tolist()[0] == 0 and vectors[0].tolist()[2] == 1
+    sure = likeliest(space, [np.array([1.0, 0.0]), np.array([0.1, 0.2, 0.7]), np.array([0.4, 0.6])], 10)
+    assert [vector.tolist()[2] for vector in sure] == [1, 0] and not any(vector[0] for vector in sure)
 
 
 def test_others_are_a_single_choice_away_or_the_likeliest_each_once():

@@ -2,7 +2,7 @@ import pytest
 
 import shapewright as sw
 from shapewright.building import Workers
-from shapewright.feedback.trial import GLANCE, SEARCH, Trial, begun, changed, mixtures, tried, unchanged
+from shapewright.feedback.trial import GLANCE, LOOK, SEARCH, Trial, begun, changed, mixtures, tried, unchanged
 from shapewright.judge import Judge
 from shapewright.modelling.solids import box, cylinder
 from shapewright.procedure import ProcedureError
@@ -55,6 +55,17 @@ def test_a_search_may_leave_some_scalars_as_they_are(post, judge):
         both = tried(crew, {0: start}, judge, SEARCH)
     assert found.parameters[0]["depth"] == pytest.approx(0.3) and found.parameters[0]["height"] > 0.35
     assert both.distances[0] <= found.distances[0]
+
+
+def test_a_search_keeps_a_choice_that_it_is_sure_of(post):
+    deep = Judge.of(sw.Collection.of({"deep": box((0.5, 0.5, 0.2)).mesh()}), sw.Settings(workers=1))
+    with Workers(post, 1) as crew:
+        free = tried(crew, {0: START}, deep, LOOK)
+        sure = tried(crew, {0: START}, deep, LOOK, sure="wide")
+    assert free.parameters[0]["wide"] is True and sure.parameters[0]["wide"] is False
+    assert free.distances[0] < sure.distances[0]
+    assert free.where(lambda values: not values["wide"]).distances == {}
+    assert sure.where(lambda values: not values["wide"]).distances == sure.distances
 
 
 def test_the_nearest_candidate_is_where_a_search_begins(post, judge):

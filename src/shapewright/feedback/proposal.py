@@ -76,8 +76,22 @@ class Proposal:
         if self.rule is None:
             return [known for known in (misfit.wide, misfit.nearest) if known] or [misfit.parameters]
         middle: Parameters = {q.name: as_value(q.whole, self.ranges[q.name][2]) for q in self.rule.quantities}
-        flag: Parameters = {self.rule.flag: self.rule.function != ""} if self.rule.flag else {}
+        flag: Parameters = {self.flag: self._on} if self.flag else {}
         return [{**misfit.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}]
+
+    def uses(self, parameters: Parameters) -> bool:
+        """Whether parameters of the changed procedure make something that it did not make before."""
+        return self.flag is None or parameters[self.flag] == self._on
+
+    @property
+    def flag(self) -> str | None:
+        """The binary that switches the rule on, where there is one."""
+        return self.rule.flag if self.rule else None
+
+    @property
+    def _on(self) -> bool:
+        """What switches the rule on: one without a function makes a part optional, and is on where the part is not."""
+        return self.rule is not None and self.rule.function != ""
 
 
 def as_value(whole: bool, value: float) -> float | int:

@@ -160,7 +160,8 @@ def _led(
     if not near:
         return glanced
     with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
-        trial = tried(new, {row: starts[row].parameters for row in near}, judge, budget, judge.settings.seed)
+        begin = {row: starts[row].parameters for row in near}
+        trial = tried(new, begin, judge, budget, judge.settings.seed, sure=idea.flag).where(idea.uses)
     better = {
         row: Start(trial.parameters[row], trial.replicas[row], trial.distances[row] * RAW_SCALE)
         for row in near
@@ -197,15 +198,16 @@ def _confirmed(
                 held = len(trial.compatible)
                 mixed = _afforded(mixtures(space, trial, trial.parameters), int(_MIXED * left))
                 left -= sum(len(several) for several in mixed.values())
-                trial = trial.joined(Trial.of(begun(new, mixed, judge, pieces), trial.threshold)).standing(pieces)
+                lent = Trial.of(begun(new, mixed, judge, pieces), trial.threshold)
+                trial = trial.joined(lent.where(idea.uses)).standing(pieces)
             free = scalars if only is None else len(only)
             rows = _near(trial, aim, PROMISING if idea.rule else _FAR)[: left // min(budget.evaluations(free), _LEAST)]
             if rows and free:
                 within = budget.within(left / len(rows), free)
                 left -= len(rows) * within.evaluations(free)
                 begin, seed = {row: trial.parameters[row] for row in rows}, judge.settings.seed + turn
-                found = tried(new, begin, judge, within, seed, ENOUGH * aim, only)
-                trial = trial.joined(found).standing(pieces)
+                found = tried(new, begin, judge, within, seed, ENOUGH * aim, only, idea.flag)
+                trial = trial.joined(found.where(idea.uses)).standing(pieces)
     return trial
 
 
@@ -253,7 +255,8 @@ def _judged(crew: Workers, procedure: Procedure, found: Tried, judge: Judge) -> 
         with changed(source, procedure, judge, crew) as new:
             trial = tried(new, made, judge, None, judge.settings.seed)
             lost = {row: made[row] for row in made if row not in trial.compatible}
-            trial = trial.joined(tried(new, lost, judge, SEARCH, judge.settings.seed))
+            again = tried(new, lost, judge, SEARCH, judge.settings.seed, sure=found.proposal.flag)
+            trial = trial.joined(again.where(found.proposal.uses))
     except (EditError, ProcedureError):
         return
     if trial.compatible:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -74,6 +74,10 @@ class Trial:
         ]
         return replace(self, distances={row: self.distances[row] for row in rows})
 
+    def where(self, uses: Callable[[Parameters], bool]) -> Trial:
+        """Without what makes no use of the change: a longer search would have found it without."""
+        return replace(self, distances={row: d for row, d in self.distances.items() if uses(self.parameters[row])})
+
     def joined(self, other: Trial) -> Trial:
         """The nearer of both for each reference."""
         rows = [row for row, distance in other.distances.items() if distance < self.distances.get(row, np.inf)]
@@ -137,17 +141,19 @@ def tried(
     seed: int = 0,
     enough: float = ENOUGH,
     only: Collection[str] | None = None,
+    sure: str | None = None,
 ) -> Trial:
     """Search for each reference (by index) from the parameters given, and judge what is found.
 
     budget: None to judge the parameters themselves, moved into the procedure's Ranges. enough: of the threshold, at
-    which a search ends. only: names of the scalars that it may change, by default all.
+    which a search ends. only: names of the scalars that it may change, by default all. sure: the name of a choice that
+    it keeps wherever it tries others.
     """
     space, rows = crew.procedure.space, list(starts)
     vectors = [space.carry(values) for values in starts.values()]
     if budget and rows:
         goal = enough * judge.goal
-        vectors = _refined(space, crew, judge.measure(rows), vectors, budget, goal, seed, only)
+        vectors = _refined(space, crew, judge.measure(rows), vectors, budget, goal, seed, only, sure)
     builds = crew.build(vectors)
     parameters: dict[int, Parameters] = {}
     replicas: dict[int, Mesh] = {}
@@ -222,12 +228,13 @@ def _refined(
     goal: float,
     seed: int,
     only: Collection[str] | None,
+    sure: str | None,
 ) -> list[Parameters]:
     encoded = np.array([space.encode(values) for values in vectors])
     fixed = np.array([only is not None and name not in only for name in space.names])
     return refine(
         space,
-        _as_inferred(space, vectors),
+        _as_inferred(space, vectors, sure),
         crew,
         measure,
         budget,
@@ -238,15 +245,16 @@ def _refined(
     )
 
 
-def _as_inferred(space: ParameterSpace, vectors: Sequence[Parameters]) -> list[NDArray[np.float32]]:
-    """Parameters in the form of a prediction that is all but sure of them."""
+def _as_inferred(space: ParameterSpace, vectors: Sequence[Parameters], sure: str | None) -> list[NDArray[np.float32]]:
+    """Parameters in the form of a prediction that is all but sure of them, and quite sure of one."""
     encoded = np.array([space.encode(values) for values in vectors], dtype=np.float32).reshape(len(vectors), len(space))
     columns: list[NDArray[np.float32]] = []
     for column, parameter in zip(encoded.T, space, strict=True):
         if not parameter.classes:
             columns.append(column)
             continue
-        likely = np.full((len(column), parameter.classes), 0.1 / parameter.classes, dtype=np.float32)
-        likely[np.arange(len(column)), column.astype(int)] = 0.9
+        doubt = 0.0 if parameter.name == sure else 0.1
+        likely = np.full((len(column), parameter.classes), doubt / parameter.classes, dtype=np.float32)
+        likely[np.arange(len(column)), column.astype(int)] = 1.0 - doubt
         columns.append(likely)
     return columns

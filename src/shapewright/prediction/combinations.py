@@ -17,13 +17,16 @@ _LIKELIEST = 4
 def likeliest(space: ParameterSpace, inferred: Sequence[NDArray[np.float32]], count: int) -> list[Floats]:
     """The ``count`` likeliest encoded vectors of one shape, likeliest first: scalars as predicted, classes combined.
 
-    Vectors that differ only in parameters that do not matter there count once.
+    Vectors that differ only in parameters that do not matter there count once. What has no chance at all is left out.
     """
     beams: list[tuple[float, list[float]]] = [(0.0, [])]
     for parameter, values in zip(space, inferred, strict=True):
         if parameter.classes:
-            logs = np.log(np.maximum(values, 1e-12))
-            beams = [(total + logs[k], [*head, float(k)]) for total, head in beams for k in range(parameter.classes)]
+            possible = np.flatnonzero(values > 0.0)
+            logs = np.log(values[possible])
+            beams = [
+                (total + log, [*head, float(k)]) for total, head in beams for k, log in zip(possible, logs, strict=True)
+            ]
             beams = sorted(beams, key=lambda beam: -beam[0])[: 4 * count]
         else:
             beams = [(total, [*head, float(values)]) for total, head in beams]
