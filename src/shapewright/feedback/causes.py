@@ -47,8 +47,7 @@ class Evidence:
     before: what the iteration found; inside: what a longer search found within the space, outside: with longer Ranges;
     laid: the shape within the space whose surface has most in common with the reference's, and its residuals.
     laid_apart, outside_apart: how much of the surfaces lies apart, see ``placement.Overlay``. isolation: of a reference
-    that is unlike all others, the mean distance to the nearest of them; None for any other. leaning: the part that
-    brings the surfaces together most when it leans, where that was tried.
+    that is unlike all others, the mean distance to the nearest of them; None for any other.
     """
 
     before: Found
@@ -59,7 +58,6 @@ class Evidence:
     laid_apart: float
     outside_apart: float
     isolation: float | None
-    leaning: Leaning | None = None
 
 
 def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Cause, ...]:
@@ -71,8 +69,6 @@ def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Ca
     """
     told = differences(found.residuals)
     parts = [Cause(part.kind, part.text, part.evidence) for part in told]
-    if found.leaning and parts[0].kind == "missing part" and found.leaning.apart < _LEANS * found.laid_apart:
-        parts = [_leans(found.leaning, found.laid_apart), *(part for part in parts if part.kind == "surplus part")]
     lacking = told[0].kind != "wrong form" and told[0].weight > _LACKING
     if found.inside.distance <= threshold:
         overlooked = _overlooked(space, found.before, found.inside)
@@ -85,6 +81,17 @@ def causes(space: ParameterSpace, threshold: float, found: Evidence) -> tuple[Ca
     if found.isolation is not None and found.inside.distance > _FAR * threshold:
         return (_strange(found.isolation), *parts, *ranges)
     return (*parts, *ranges)
+
+
+def or_leaning(told: tuple[Cause, ...], found: Leaning | None, apart: float) -> tuple[Cause, ...]:
+    """The same, with a part that leans in place of what seems missing, where that brings the surfaces together.
+
+    found: the part that brings them together most when it leans; apart: how much lies apart where none does.
+    """
+    if found is None or found.apart >= _LEANS * apart:
+        return told
+    rest = (cause for cause in told if cause.kind not in ("missing part", "wrong form"))
+    return (_leans(found, apart), *rest)
 
 
 def _leans(found: Leaning, before: float) -> Cause:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.feedback.causes import Cause, Evidence, causes
+from shapewright.feedback.causes import Cause, Evidence, causes, or_leaning
 from shapewright.feedback.leaning import leaning
 from shapewright.feedback.outliers import isolation, outliers
 from shapewright.feedback.placement import Overlay, place
@@ -208,7 +208,7 @@ def _causes(
     lacking = [i for i, told in enumerate(why) if told[0].kind == "missing part"]
     some = [laid[i].parameters for i in lacking], [overlays[rows[i]] for i in lacking]
     for i, lean in zip(lacking, leaning(searcher.space, searcher.crew, *some, settings.workers), strict=True):
-        why[i] = causes(searcher.space, searcher.threshold, replace(evidence[i], leaning=lean))
+        why[i] = or_leaning(why[i], lean, evidence[i].laid_apart)
     return {row: _Why(inside[i], laid[i], differences[i], why[i], outside[row]) for i, row in enumerate(rows)}
 
 

@@ -95,7 +95,7 @@ def hypotheses(found: Residuals, reference: Mesh, replica: Mesh, costs: Costs) -
     (before,) = costs([replica])
     blank = Hypothesis(before=before)
     tried = _priced([*_simple(replica, blank)], replica, costs)
-    tried += _priced([*_further(tried, replica, blank)], replica, costs)
+    tried += _priced([*_further(tried, blank)], replica, costs)
     tried += _priced([*_other_splays(tried, blank)], replica, costs)
     best = min(tried, key=lambda each: each.cost, default=blank)
     if any(piece.kind == "spokes" for piece in best.pieces):
@@ -139,33 +139,42 @@ def _scales(s: float) -> Iterator[tuple[float, float]]:
     yield from ((s, s), (s, 1.0), (1.0, s))
 
 
-def _further(tried: Sequence[Hypothesis], replica: Mesh, blank: Hypothesis) -> Iterator[Hypothesis]:
+def _further(tried: Sequence[Hypothesis], blank: Hypothesis) -> Iterator[Hypothesis]:
     """What helps drawn in further, and less far; each part in its better form with the rest drawn in; parts splayed
     where another is gone."""
     insets = [each for each in tried if each.inset and each.cost < blank.before]
-    for each in {best.inset: best for best in sorted(insets, key=lambda each: -each.cost)}.values():
+    for each in _best_of_each(insets, lambda each: each.inset):
         for s in _INSETS:
-            scale = (s if each.scale[0] < 1.0 else 1.0, s if each.scale[1] < 1.0 else 1.0)
+            scale = _scaled(each.scale, s)
             if scale != each.scale:
                 yield replace(blank, inset=each.inset, scale=scale)
     gone = [each for each in tried if each.removed and not each.pieces and each.cost < blank.before]
-    for each in sorted(gone, key=lambda each: each.cost)[:1]:
-        for label in supports(replica):
-            if label not in each.removed:
-                yield from (replace(each, splayed=(label,), scale=scale, cost=np.inf) for scale in _scales(_SPLAY))
+    if gone:
+        least = min(gone, key=lambda each: each.cost)
+        for part in dict.fromkeys(each.splayed for each in tried if each.splayed):
+            if part != least.removed:
+                yield from (replace(least, splayed=part, scale=scale, cost=np.inf) for scale in _scales(_SPLAY))
     forms = [each for each in tried if each.pieces and each.pieces[0].kind != "spokes"]
     several = len({each.removed for each in forms}) > 1
-    for each in {best.removed: best for best in sorted(forms, key=lambda each: -each.cost)}.values() if several else ():
+    for each in _best_of_each(forms, lambda each: each.removed) if several else ():
         yield from (replace(each, inset=(REST,), scale=(s, s), cost=np.inf) for s in _INSETS[::2])
 
 
 def _other_splays(tried: Sequence[Hypothesis], blank: Hypothesis) -> Iterator[Hypothesis]:
     """Other factors of the best splayed part, and of the best where another part is gone."""
-    helpful = sorted((each for each in tried if each.splayed and each.cost < blank.before), key=lambda each: -each.cost)
-    for each in {bool(each.removed): each for each in helpful}.values():
-        for s in _SPLAYS:
-            scale = (s if each.scale[0] != 1.0 else 1.0, s if each.scale[1] != 1.0 else 1.0)
-            yield replace(each, scale=scale, cost=np.inf)
+    helpful = [each for each in tried if each.splayed and each.cost < blank.before]
+    for each in _best_of_each(helpful, lambda each: bool(each.removed)):
+        yield from (replace(each, scale=_scaled(each.scale, s), cost=np.inf) for s in _SPLAYS)
+
+
+def _scaled(scale: tuple[float, float], s: float) -> tuple[float, float]:
+    """The same, with another factor along the axes that have one."""
+    return (s if scale[0] != 1.0 else 1.0, s if scale[1] != 1.0 else 1.0)
+
+
+def _best_of_each(several: Sequence[Hypothesis], key: Callable[[Hypothesis], object]) -> list[Hypothesis]:
+    """The hypothesis of least cost for each value of a key."""
+    return list({key(each): each for each in sorted(several, key=lambda each: -each.cost)}.values())
 
 
 def _radial(bounds: Floats, middle: tuple[float, float]) -> Iterator[Piece]:

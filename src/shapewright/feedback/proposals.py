@@ -14,6 +14,7 @@ from shapewright.feedback.pieces import Piece
 from shapewright.feedback.proposal import Misfit, Proposal, Ranges, as_value
 from shapewright.feedback.relations import WHOLE, Frames
 from shapewright.feedback.spelling import noun, number
+from shapewright.feedback.supports import bounds_of
 from shapewright.feedback.wording import Rule, addition, drawing_in, removal, splaying
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 from shapewright.shapes import Floats, Mesh
@@ -47,10 +48,8 @@ def frames_of(replica: Mesh, always: Sequence[str]) -> Frames:
     """The bounding boxes of a replica and of its parts."""
     frames: dict[str, Floats] = {WHOLE: replica.bounds}
     for label in always:
-        if replica.face_labels is not None and label in replica.label_names:
-            faces = replica.faces[replica.face_labels == replica.label_names.index(label)]
-            if len(faces):
-                frames[label] = Mesh(replica.vertices, faces).bounds
+        if label in replica.label_names and (bounds := bounds_of(replica, label)) is not None:
+            frames[label] = bounds
     return frames
 
 

@@ -107,9 +107,7 @@ def drawing_in(
 ) -> Rule:
     """A rule that draws a part in towards the middle, along x and z."""
     plain = _plain(label)
-    quantities = tuple(
-        Quantity(free(f"{plain}_inset_{axis}"), tuple(scale[i] for scale in scales)) for i, axis in enumerate("xz")
-    )
+    quantities = _sideways(f"{plain}_inset", scales, free)
     x, z = (quantity.name for quantity in quantities)
     name = free(f"draw_in_{plain}")
     lines = [
@@ -130,9 +128,7 @@ def splaying(
 ) -> Rule:
     """A rule that moves the low end of a part away from its middle. everywhere: whether all shapes have the part."""
     plain = _plain(label)
-    quantities = tuple(
-        Quantity(free(f"{plain}_splay_{axis}"), tuple(scale[i] for scale in scales)) for i, axis in enumerate("xz")
-    )
+    quantities = _sideways(f"{plain}_splay", scales, free)
     x, z = (quantity.name for quantity in quantities)
     name = free(f"splay_{plain}")
     rest = f"shape.without({', '.join(map(quoted, [label, *removed]))})"
@@ -150,6 +146,11 @@ def removal(label: str, free: Callable[[str], str]) -> Rule:
     """A rule that makes a part optional."""
     flag = free(f"with_{_plain(label)}")
     return Rule(flag, flag, "", f"{{shape}}.without({quoted(label)})", (), ())
+
+
+def _sideways(name: str, scales: Sequence[tuple[float, float]], free: Callable[[str], str]) -> tuple[Quantity, ...]:
+    """The factors along x and z that each misfit wants."""
+    return tuple(Quantity(free(f"{name}_{axis}"), tuple(scale[i] for scale in scales)) for i, axis in enumerate("xz"))
 
 
 def _about(frames: Sequence[Frames]) -> str:
