@@ -272,6 +272,7 @@ def test_a_fit_is_cancelled(visit: Visit, fitted: dict[str, Any]) -> None:
     state = visit.studio.wait_for(rested)
     assert [run["run"] for run in state["runs"]] == [run["run"] for run in fitted["runs"]]
     visit.go("collection")
+    page.wait_for_selector("[data-group]")
     assert page.locator("[data-group]").count() > 0
 
 
