@@ -14,6 +14,7 @@ test: .venv/installed $(PAGE)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports
 	$(BIN)/pytest
 
 .venv/installed: pyproject.toml constraints.txt
@@ -32,4 +33,4 @@ clean:
 
 # The picture in the README: the report that `make demo` made last.
 picture:
-	$(BIN)/python docs/screenshot.py $$(ls -d demo-run/runs/*/ | tail -1)report.html docs/pictures/report.png
+	$(BIN)/python tools/screenshot.py $$(ls -d demo-run/runs/*/ | tail -1)report.html docs/pictures/report.png

@@ -15,8 +15,9 @@ from pathlib import Path
 import numpy as np
 
 import shapewright as sw
-from shapewright.results import Result
-from shapewright.workspace import cache_folder, check_free
+from shapewright.report import write_report
+from shapewright.runs.folder import cache_folder, check_free
+from shapewright.runs.result import Result
 
 ROOT = Path(__file__).resolve().parents[1]
 SETS = {
@@ -43,7 +44,7 @@ def main() -> None:
     print(f"{'':<10}{'furniture (IoU)':>20}{'cuboids (IoU)':>20}{'MAE':>8}{'F1':>7}{'parameters':>12}{'seconds':>9}")
     for category in arguments.categories or SETS:
         collections = [sw.Collection.load(arguments.references / name) for name in SETS[category]]
-        for path in sorted((ROOT / "examples" / category).glob("v*.py")):
+        for path in sorted((ROOT / "examples" / "categories" / category).glob("v*.py")):
             if not arguments.versions or path.stem in arguments.versions:
                 print(row(category, path, collections, settings, arguments.out), flush=True)
 
@@ -62,7 +63,7 @@ def row(category: str, path: Path, collections: list[sw.Collection], settings: s
     iteration = sw.fit(procedure, sw.Collection.of(shapes), settings, cache=cache_folder())
     seconds = time.perf_counter() - started
     if folder:
-        iteration.save(folder)
+        iteration.save(folder, write_report)
     scores = iteration.metrics["validation"].values()
     mae = np.mean([score["mae"] for score in scores if "mae" in score])
     f1 = min((score["f1"] for score in scores if "f1" in score), default=np.nan)

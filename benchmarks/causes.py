@@ -24,13 +24,13 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.building import Workers
+from shapewright.feedback.causes.longer_search import Found, Searcher
 from shapewright.feedback.explanation import explain
-from shapewright.feedback.search import Found, Searcher
-from shapewright.judge import Judge
+from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import Solid, box, cylinder, sphere
 from shapewright.parameters import Parameters
-from shapewright.prediction.budget import QUICK
-from shapewright.results import Result, at_limit
+from shapewright.runs.result import Result, at_limit
+from shapewright.search.budgets import QUICK
 
 WHOLE = Path(__file__).parent.parent / "examples" / "tables" / "v5.py"
 LEGS = 'Literal["basic", "support", "pedestal", "split"] = "basic"'

@@ -16,9 +16,9 @@ from pathlib import Path
 
 import shapewright as sw
 from causes import WHOLE, Case, made
-from shapewright.commands import suggestions_of
 from shapewright.feedback.explanation import explain
-from shapewright.judge import Judge
+from shapewright.feedback.suggestions import suggestion_records
+from shapewright.judging.judge import Judge
 
 
 def cpu_seconds() -> float:
@@ -43,7 +43,7 @@ def main() -> None:
         Judge.of(references, settings, Path(folder))
         few = [result.name for result in iteration.results if not result.compatible][:2]
         explain(procedure, references, replace(iteration, results=tuple(iteration[name] for name in few)))
-        for name, hook in (("causes", None), ("causes and suggestions", suggestions_of)):
+        for name, hook in (("causes", None), ("causes and suggestions", suggestion_records)):
             started, spent = time.perf_counter(), cpu_seconds()
             explanation = explain(procedure, references, iteration, cache=Path(folder), suggest=hook)
             seconds, spent = time.perf_counter() - started, cpu_seconds() - spent

@@ -14,7 +14,7 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.building import build_all
-from shapewright.prediction.evaluation import score
+from shapewright.prediction.inference import score
 
 UNSEEN = 1_000_003
 

@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 
 import shapewright as sw
+from shapewright.report import write_report
 
 
 def gather(folders: list[str], count: int) -> sw.Collection:
@@ -56,7 +57,7 @@ def main() -> None:
         iteration = sw.fit(procedure, references, settings, cache=Path(cache), previous=previous)
     fitted = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
-        iteration.save(Path(folder) / "run")
+        iteration.save(Path(folder) / "run", write_report)
     saved = time.perf_counter()
     first = iteration.metrics["first_answer"]
     stages = {"load": loaded, "(answer)": first, **iteration.seconds, "save": saved - fitted, "all": saved - started}

@@ -21,8 +21,8 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import spearmanr
 
 from shapewright.comparison import light_field
-from shapewright.comparison.dodecahedra import symmetries
 from shapewright.comparison.light_field import Descriptor, descriptor, descriptors, distance, raw_distances
+from shapewright.comparison.light_field.dodecahedra import symmetries
 from shapewright.shapes import Mesh
 
 GROUND_TRUTH = Path(__file__).resolve().parents[1].parent / "shared" / "data" / "lfd"

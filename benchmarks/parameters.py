@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import shapewright as sw
-from shapewright.prediction.evaluation import score
+from shapewright.prediction.inference import score
 
 TABLES = Path(__file__).resolve().parents[1] / "examples" / "tables"
 

@@ -1,6 +1,7 @@
 """How well the parameters of held-out samples are found: by the network, and after a thorough search.
 
-    python benchmarks/recovery.py examples/shelf/v3.py [FILE...] [--samples 12000] [--epochs 20] [--refined 200]
+    python benchmarks/recovery.py examples/categories/shelf/v3.py [FILE...]
+        [--samples 12000] [--epochs 20] [--refined 200]
 
 Two rows a procedure, of the network on all held-out samples and of refinement on the first --refined of them: mean
 absolute error of the scalars (share of their Ranges), then the F1 of every other parameter, and the seconds spent.
@@ -13,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import shapewright as sw
-from shapewright.evaluation import evaluate
+from shapewright.fitting.evaluation import evaluate
 
 
 def row(metrics: dict) -> str:

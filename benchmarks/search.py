@@ -18,10 +18,10 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.building import Workers
-from shapewright.comparison.aligned import AlignedCost
-from shapewright.judge import Judge
-from shapewright.prediction.budget import QUICK, Budget, Round
-from shapewright.prediction.refinement import refine
+from shapewright.comparison.light_field.aligned import AlignedCost
+from shapewright.judging.judge import Judge
+from shapewright.search.budgets import QUICK, Budget, Round
+from shapewright.search.search import refine
 
 EXACT = (Round(3, afresh=True, probe=0.05, both=True), Round(3, 3))
 LONG = Budget(

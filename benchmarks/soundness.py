@@ -13,7 +13,7 @@ import numpy as np
 from shapewright import Mesh, Procedure, load_procedure
 from shapewright.building import Build, Workers
 from shapewright.parameters import Parameters
-from shapewright.soundness import Soundness
+from shapewright.shapes.soundness import Soundness
 from shapewright.threads import in_threads
 
 CHUNK, TIMED, TRIES = 512, 300, 8

@@ -19,9 +19,9 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "tests"))
+sys.path.insert(0, str(ROOT / "tests" / "helpers"))
 
-from shapewright.demo.collection import write  # noqa: E402
+from shapewright.demo.meshes import write  # noqa: E402
 from studio_browser import Visit, chromium  # noqa: E402
 from studio_client import ready, studio  # noqa: E402
 

@@ -21,10 +21,11 @@ from PIL import Image
 import shapewright as sw
 from shapewright.building import Build, Workers
 from shapewright.demo import drawings
-from shapewright.judge import judge_of
+from shapewright.judging.judge import judge_of
 from shapewright.rendering.ink import coverage
 from shapewright.rendering.projection import silhouette
-from shapewright.results import Result
+from shapewright.report import write_report
+from shapewright.runs.result import Result
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples" / "drawings"
 CHUNK, SIDE = 256, 64
@@ -111,7 +112,7 @@ def main() -> None:
         iteration = sw.fit(procedure, references, settings)
         seconds = time.perf_counter() - started
         if arguments.out:
-            iteration.save(arguments.out / version)
+            iteration.save(arguments.out / version, write_report)
             for kind in sets:
                 found = [result for result in iteration if result.name.startswith(kind) and result.replica]
                 sheet(found).save(arguments.out / f"{version}-{kind}.png", optimize=True)

@@ -28,13 +28,13 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.building import Build, Workers
+from shapewright.feedback.causes.longer_search import Found, Searcher
 from shapewright.feedback.explanation import Explained, explain
-from shapewright.feedback.placement import Overlay, place
-from shapewright.feedback.residuals import residuals
-from shapewright.feedback.search import Found, Searcher
 from shapewright.feedback.suggestions import Suggestion, suggest
-from shapewright.feedback.surface import Surface
-from shapewright.judge import Judge
+from shapewright.feedback.surfaces.placement import Overlay, place
+from shapewright.feedback.surfaces.residuals import residuals
+from shapewright.feedback.surfaces.visible import Surface
+from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"

@@ -11,8 +11,8 @@ import time
 from pathlib import Path
 
 import shapewright as sw
-from shapewright.demo import collection as bundled
-from shapewright.workspace import cache_folder
+from shapewright.demo import meshes as bundled
+from shapewright.runs.folder import cache_folder
 
 
 def load(source: str) -> sw.Collection:

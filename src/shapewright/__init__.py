@@ -4,26 +4,26 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from shapewright.parameters import Binary, Choice, Integer, ParameterSpace, Range, Scalar, When
-from shapewright.procedure import Infeasible, Procedure, ProcedureError, load_procedure, procedure
+from shapewright.procedures import Infeasible, Procedure, ProcedureError, load_procedure, procedure
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Transform
 
 if TYPE_CHECKING:
-    from shapewright.authoring import fit
     from shapewright.comparison import light_field, outline
-    from shapewright.iteration import Iteration
-    from shapewright.learning import train
+    from shapewright.fitting.fit import fit
+    from shapewright.fitting.learning import train
     from shapewright.prediction.predictor import Predictor
     from shapewright.references import Collection, CollectionError, Reference
+    from shapewright.runs.iteration import Iteration
 
 # An author's file imports this package in every worker process: what loads torch or numba is loaded when first used.
 _ON_FIRST_USE = {
-    "fit": "shapewright.authoring",
+    "fit": "shapewright.fitting.fit",
     "light_field": "shapewright.comparison",
     "outline": "shapewright.comparison",
-    "Iteration": "shapewright.iteration",
+    "Iteration": "shapewright.runs.iteration",
     "Predictor": "shapewright.prediction.predictor",
-    "train": "shapewright.learning",
+    "train": "shapewright.fitting.learning",
     "Collection": "shapewright.references",
     "CollectionError": "shapewright.references",
     "Reference": "shapewright.references",

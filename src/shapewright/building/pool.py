@@ -19,7 +19,7 @@ import cloudpickle
 from shapewright.building.outcomes import Build, Failure, Limits, describe_failures
 from shapewright.building.process import WorkerProcess
 from shapewright.parameters import Parameters
-from shapewright.procedure import Procedure, ProcedureError
+from shapewright.procedures import Procedure, ProcedureError
 from shapewright.threads import cores
 
 SLICE = 64

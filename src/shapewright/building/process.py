@@ -16,7 +16,7 @@ from typing import Any
 from shapewright.building.clock import COMPILING
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.parameters import Parameters
-from shapewright.procedure import ProcedureError
+from shapewright.procedures import ProcedureError
 
 _START_SECONDS = 60.0
 _STEP = 0.1

@@ -15,7 +15,7 @@ from pathlib import Path
 from shapewright.building.clock import COMPILING, TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.parameters import Parameters
-from shapewright.procedure import Infeasible, Procedure, ProcedureError, author_line, load_procedure
+from shapewright.procedures import Infeasible, Procedure, ProcedureError, author_line, load_procedure
 
 _ANSWER_WITHIN = 0.25
 _READY = "ready"

@@ -1,0 +1,1 @@
+"""Comparison: how much two shapes differ."""

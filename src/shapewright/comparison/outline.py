@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import eval_jacobi
 
-from shapewright.comparison.coefficients import coefficients
-from shapewright.comparison.contours import FOURIER
-from shapewright.comparison.regions import ART
+from shapewright.comparison.light_field.coefficients import coefficients
+from shapewright.comparison.light_field.contours import FOURIER
+from shapewright.comparison.light_field.regions import ART
 from shapewright.rendering.ink import fill, outlines
-from shapewright.rendering.silhouettes_raster import SIZE
+from shapewright.rendering.silhouettes import SIZE
 from shapewright.shapes import Drawing
 
 Floats = NDArray[np.float64]

@@ -1,0 +1,1 @@
+"""The demo: bundled references and procedures."""

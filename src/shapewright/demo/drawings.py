@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from shapewright.export import svg
 from shapewright.modelling.drawing import Sketch, box, ellipse, line, polygon, polyline, spline, union
 from shapewright.rendering.ink import png
 from shapewright.shapes import Drawing
+from shapewright.shapes.files import svg
 
 SEED = 2023
 Random = np.random.Generator

@@ -1,0 +1,1 @@
+"""Feedback: an iteration explained, and what to write next."""

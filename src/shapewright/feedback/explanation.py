@@ -10,23 +10,23 @@ from typing import Any
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.feedback.causes import Cause, Evidence, causes, or_leaning
-from shapewright.feedback.leaning import leaning
-from shapewright.feedback.outliers import isolation, outliers
-from shapewright.feedback.placement import Overlay, place
-from shapewright.feedback.residuals import Region, Residuals, residuals
-from shapewright.feedback.rules import with_rules
-from shapewright.feedback.search import Found, Inferred, Searcher
-from shapewright.feedback.shared import Misfit, shared
-from shapewright.feedback.surface import Surface
-from shapewright.iteration import Iteration
-from shapewright.judge import Judge
-from shapewright.learning import limits_of
+from shapewright.feedback.causes.causes import Cause, Evidence, causes, or_leaning
+from shapewright.feedback.causes.leaning import leaning
+from shapewright.feedback.causes.longer_search import Found, Inferred, Searcher
+from shapewright.feedback.causes.outliers import isolation, outliers
+from shapewright.feedback.causes.rules import with_rules
+from shapewright.feedback.causes.shared import Misfit, shared
+from shapewright.feedback.surfaces.placement import Overlay, place
+from shapewright.feedback.surfaces.residuals import Region, Residuals, residuals
+from shapewright.feedback.surfaces.visible import Surface
+from shapewright.fitting.learning import limits_of
+from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.predictor import Predictor
-from shapewright.procedure import Procedure
+from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
+from shapewright.runs.iteration import Iteration
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh, Shape
 from shapewright.threads import in_threads

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.report import write_report
-from shapewright.report.explanation import EXPLANATION, PICTURES
-from shapewright.workspace import RunError
+from shapewright.report.explained import EXPLANATION, PICTURES
+from shapewright.runs.folder import RunError
 
 
 def write_into(folder: Path, record: Mapping[str, Any]) -> dict[str, Any]:

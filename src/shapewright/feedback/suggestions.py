@@ -11,16 +11,16 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.comparison.light_field import RAW_SCALE
-from shapewright.feedback.cards import Example, card
-from shapewright.feedback.edit import can_edit, parameter_line, snippet
 from shapewright.feedback.explanation import Explained
-from shapewright.feedback.hypotheses import Hypothesis, hypotheses
-from shapewright.feedback.proposal import Misfit
-from shapewright.feedback.proposals import proposals
-from shapewright.feedback.selection import Tried, selected
-from shapewright.judge import Judge
+from shapewright.feedback.ideas.hypotheses import Hypothesis, hypotheses
+from shapewright.feedback.ideas.proposal import Misfit
+from shapewright.feedback.ideas.proposals import proposals
+from shapewright.feedback.trials.cards import Example, card
+from shapewright.feedback.trials.selection import Tried, selected
+from shapewright.feedback.writing.edit import can_edit, parameter_line, snippet
+from shapewright.judging.judge import Judge
 from shapewright.parameters import ParameterSpace
-from shapewright.procedure import Procedure
+from shapewright.procedures import Procedure
 from shapewright.progress import Stages
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
@@ -100,6 +100,11 @@ def suggest(
     evaluations = max(EVALUATIONS - _FEWER * len(misfits), EVALUATIONS // 4)
     found = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
     return tuple(_suggestion(each, procedure, explained, judge) for each in found)
+
+
+def suggestion_records(*arguments: Any) -> list[dict[str, Any]]:
+    """Suggestions as records; arguments: see ``suggest``."""
+    return [suggestion.record for suggestion in suggest(*arguments)]
 
 
 def _misfits(explained: Sequence[Explained], judge: Judge) -> list[Misfit]:

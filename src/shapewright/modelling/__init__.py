@@ -1,0 +1,1 @@
+"""The modelling kit: what procedures are written with."""

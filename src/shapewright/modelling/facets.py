@@ -17,7 +17,7 @@ from numba import njit
 from shapewright.modelling.curves import knots
 from shapewright.modelling.deformation import Bend, Bulge, Deformation, Free, Scale, Shift, Turn
 from shapewright.shapes import Floats, Ints
-from shapewright.slivers import SLIVER
+from shapewright.shapes.slivers import SLIVER
 
 _SAMPLES = 25
 _STEPS = np.linspace(0.0, 1.0, _SAMPLES)

@@ -14,11 +14,18 @@ coordinates are double precision throughout. docs/modelling.md shows everything 
 
 from shapewright.modelling.arguments import Axis, Direction, Vector
 from shapewright.modelling.curves import bezier, spline
-from shapewright.modelling.details import chamfered_box, cushion, rounded_box, slats, tapered_leg, turned_leg
-from shapewright.modelling.primitives import box, cone, cylinder, prism, sphere
-from shapewright.modelling.sections import Polygon, ellipse, rectangle
-from shapewright.modelling.solid import Solid, hull, union
-from shapewright.modelling.sweeps import extrude, loft, revolve, sweep
+from shapewright.modelling.solid.details import (
+    chamfered_box,
+    cushion,
+    rounded_box,
+    slats,
+    tapered_leg,
+    turned_leg,
+)
+from shapewright.modelling.solid.primitives import box, cone, cylinder, prism, sphere
+from shapewright.modelling.solid.sections import Polygon, ellipse, rectangle
+from shapewright.modelling.solid.solid import Solid, hull, union
+from shapewright.modelling.solid.sweeps import extrude, loft, revolve, sweep
 
 __all__ = [
     "Axis",

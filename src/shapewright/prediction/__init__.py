@@ -1,0 +1,1 @@
+"""Prediction: from pictures of a shape to the parameters of a procedure."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build, describe_failures
 from shapewright.parameters import Parameters, ParameterSpace
-from shapewright.procedure import ProcedureError
+from shapewright.procedures import ProcedureError
 from shapewright.rendering.cameras import THREE_VIEWS, Camera
 from shapewright.rendering.raster import render
 from shapewright.shapes import Mesh, Shape

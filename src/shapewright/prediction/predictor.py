@@ -14,7 +14,7 @@ from torch import nn
 
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.devices import torch_threads
-from shapewright.prediction.evaluation import Inference, Metrics, infer
+from shapewright.prediction.inference import Inference, Metrics, infer
 from shapewright.prediction.network import CompactNetwork, make_network
 from shapewright.prediction.training import Epoch
 from shapewright.records import from_record, to_record

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from torch import nn
 
 from shapewright.parameters import ParameterSpace
-from shapewright.prediction.camera_learning import LearnedCameras, camera_gradient
+from shapewright.prediction.cameras import LearnedCameras, camera_gradient
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.devices import DeviceName, autocast, pick, torch_threads
-from shapewright.prediction.evaluation import calibrate, outputs
+from shapewright.prediction.inference import calibrate, outputs
 from shapewright.prediction.network import NetworkName, loss, make_network, spread_loss
 from shapewright.rendering.cameras import Camera
 from shapewright.rendering.raster import render

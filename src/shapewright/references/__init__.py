@@ -2,7 +2,7 @@
 
 from shapewright.references.collection import Collection, Reference
 from shapewright.references.errors import CollectionError
-from shapewright.references.files import EXTENSIONS
 from shapewright.references.orientation import Orientation
+from shapewright.references.readers.formats import EXTENSIONS
 
 __all__ = ["EXTENSIONS", "Collection", "CollectionError", "Orientation", "Reference"]

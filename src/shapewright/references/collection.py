@@ -12,11 +12,12 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from shapewright.conversion import as_shape
-from shapewright.references import files, sources
+from shapewright.references import sources
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.orientation import QUARTER_TURNS, Orientation
+from shapewright.references.readers import formats as files
 from shapewright.shapes import Drawing, Floats, Mesh, Shape, Transform, shape_digest
+from shapewright.shapes.conversion import as_shape
 
 _REASONS = 5
 

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import TypeAlias
 
 from shapewright.references.errors import CollectionError
-from shapewright.references.files import EXTENSIONS, MESHES
 from shapewright.references.orientation import Orientation
+from shapewright.references.readers.formats import EXTENSIONS, MESHES
 
 Origin: TypeAlias = str | os.PathLike[str]
 _SHAPENET = ("models", "model_normalized.obj")

@@ -1,0 +1,1 @@
+"""Rendering: small pictures of shapes, without a GL context."""

@@ -1,6 +1,5 @@
-"""The report of an iteration: one static page."""
+"""The report of a run: one static page."""
 
-from shapewright.report.comparison import Comparison, Move, compare
-from shapewright.report.report import write_report
+from shapewright.report.page import write_report
 
-__all__ = ["Comparison", "Move", "compare", "write_report"]
+__all__ = ["write_report"]

@@ -1,1 +1,1 @@
-"""The studio: a local web page where the author sees what the procedure cannot do yet; PROTOCOL.md is its language."""
+"""The studio: a local page where the author sees what the procedure cannot do yet."""

@@ -1,4 +1,4 @@
-/** What page and server say to each other: src/shapewright/studio/PROTOCOL.md, as types. */
+/** What page and server say to each other: src/shapewright/studio/wire/PROTOCOL.md, as types. */
 
 export type Value = number | string | boolean;
 export type Values = Record<string, Value>;

@@ -1,0 +1,145 @@
+"""Commands about runs that are there: explain one, mark its pairs, write its report anew, compare two."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+
+from shapewright.cli.options import Json, Workers
+from shapewright.runs.folder import RunError, cache_folder, previous_run, read_record
+from shapewright.runs.marks import marks_path
+
+if TYPE_CHECKING:
+    from shapewright.judging.calibration import Verdict
+    from shapewright.procedures import Procedure
+    from shapewright.progress import Listener
+    from shapewright.references import Collection
+    from shapewright.runs.iteration import Iteration
+
+out, err = Console(), Console(stderr=True)
+Run = Annotated[Path, typer.Argument(help="Folder of a run.")]
+
+
+def explain(
+    run: Run,
+    references: Annotated[
+        str | None, typer.Option(help="Where the collection is now.  [dim]default: where it was[/]")
+    ] = None,
+    suggestions: Annotated[bool, typer.Option(help="Try what to write next; takes longer.")] = True,
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Say where and why replicas differ from their references, and what to write next; renews the run's report."""
+    from shapewright.cli.console import print_explanation, print_json, progress_bars
+    from shapewright.feedback.explanation import explain as explain_iteration
+    from shapewright.feedback.record import write
+    from shapewright.feedback.suggestions import suggestion_records
+    from shapewright.runs.inputs import procedure_of, references_of
+    from shapewright.runs.iteration import Iteration
+
+    run = run.absolute()
+    iteration = Iteration.load(run)
+    procedure, collection = procedure_of(run, iteration), references_of(run, iteration, references)
+    try:
+        with progress_bars(err) as listen:
+            suggest = suggestion_records if suggestions else None
+            found = explain_iteration(procedure, collection, iteration, listen, cache_folder(), suggest, workers)
+    except KeyboardInterrupt:
+        err.print("stopped: the run is as it was")
+        raise typer.Exit(130) from None
+    record = write(run, found.record, previous_run(run, set(iteration.names)))
+    if json:
+        print_json({"run": str(run), "report": str(run / "report.html"), **record})
+    else:
+        print_explanation(out, record, run)
+
+
+def mark(
+    run: Run,
+    name: Annotated[str, typer.Argument(help="A reference of the run.")],
+    judgement: Annotated[
+        Literal["same", "different"], typer.Argument(help="What it and its replica are, to your eye.")
+    ],
+    json: Json = False,
+) -> None:
+    """Mark a reference and its replica as the same or as different; the marks say what the threshold should be."""
+    from shapewright.cli.console import print_json, print_verdict
+    from shapewright.runs.marks import mark as write_mark
+
+    path = write_mark(run, name, judgement == "same")
+    found = _verdict(run)
+    if json:
+        print_json({"path": str(path), **asdict(found)})
+    else:
+        print_verdict(out, path, found)
+
+
+def report(
+    run: Run,
+    previous: Annotated[
+        Path | None, typer.Option(help="Run to compare with.  [dim]default: the one before it in the same folder[/]")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Write a run's report anew and print its path."""
+    from shapewright.cli.console import print_json
+    from shapewright.report import write_report
+
+    read_record(run)
+    if previous:
+        read_record(previous)
+    path = write_report(run.absolute(), previous or previous_run(run.absolute()))
+    if json:
+        print_json({"report": str(path)})
+    else:
+        out.print(escape(str(path)), soft_wrap=True, highlight=False)
+
+
+def compare(
+    before: Annotated[Path, typer.Argument(help="Folder of the earlier run.")],
+    after: Annotated[Path, typer.Argument(help="Folder of the later run.")],
+    json: Json = False,
+) -> None:
+    """Show what changed between two runs: newly compatible, lost, closer, further."""
+    from shapewright.cli.console import print_comparison, print_json
+    from shapewright.runs.changes import compare as compare_records
+
+    comparison = compare_records(read_record(after), read_record(before))
+    if json:
+        print_json(asdict(comparison))
+    else:
+        print_comparison(out, before, after, comparison)
+
+
+def judged_by_marks(folder: Path) -> dict[str, Any]:
+    """The settings that a project's marks ask for. folder: of the run to be made. Raises RunError without marks."""
+    found = _verdict(folder)
+    if not found.marks:
+        raise RunError(f"{marks_path(folder)}: no marks yet; make some with: shapewright mark RUN NAME same|different")
+    return {"threshold": found.threshold, "metric": found.metric}
+
+
+def _verdict(run: Path) -> Verdict:
+    from shapewright.judging.calibration import verdict
+    from shapewright.runs.marks import read_marks
+
+    marks = read_marks(run)
+    return verdict([mark.measures for mark in marks], [mark.same for mark in marks])
+
+
+def explanation_of(
+    procedure: Procedure, references: Collection, iteration: Iteration, progress: Listener | None
+) -> Callable[[Path], object]:
+    """Explain an iteration that is not saved yet; what is returned writes that into its folder."""
+    from shapewright.feedback.explanation import explain as explain_iteration
+    from shapewright.feedback.record import write_into
+    from shapewright.feedback.suggestions import suggestion_records
+
+    record = explain_iteration(procedure, references, iteration, progress, cache_folder(), suggestion_records).record
+    return lambda folder: write_into(folder, record)

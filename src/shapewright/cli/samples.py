@@ -1,0 +1,84 @@
+"""Commands that write shapes into files: random ones of a procedure, silhouettes of meshes."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+
+from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers
+from shapewright.procedures import load_procedure
+
+out, err = Console(), Console(stderr=True)
+
+
+def sample(
+    procedure: ProcedureArgument,
+    out_dir: Annotated[
+        Path, typer.Option("--out", help="Folder for the shapes; one that holds the first of them is gone on with.")
+    ],
+    count: Annotated[int, typer.Option("-n", "--count", min=1, help="How many shapes.")] = 10,
+    format: Annotated[
+        Literal["glb", "ply", "obj", "stl", "off"], typer.Option(help="Kind of file; drawings are written as SVG.")
+    ] = "glb",
+    seed: Seed = 0,
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Write random shapes of a procedure, and a table of their parameters and soundness."""
+    from shapewright.cli.console import print_json, progress_bars
+    from shapewright.fitting.samples import MANIFEST, write_samples
+    from shapewright.progress import Progress
+
+    folder = out_dir.absolute()
+    try:
+        with progress_bars(err) as listen:
+            samples = write_samples(
+                load_procedure(procedure),
+                count,
+                folder,
+                format,
+                seed,
+                workers,
+                lambda done, total: listen(Progress("sample", done, total)),
+            )
+    except KeyboardInterrupt:
+        err.print(f"stopped: what {MANIFEST} lists is whole; the same command goes on from there")
+        raise typer.Exit(130) from None
+    if samples.failures:
+        err.print(f"[yellow]failed:[/] {escape(samples.failures)}", highlight=False)
+    if json:
+        print_json({"out": str(folder), "manifest": str(folder / MANIFEST), **asdict(samples)})
+    else:
+        unsound = f", {samples.unsound} of them unsound," if samples.unsound else ""
+        out.print(f"{samples.shapes} shapes{unsound} and {MANIFEST} in {escape(str(out_dir))}", highlight=False)
+
+
+def silhouettes(
+    references: Annotated[str, typer.Argument(help="Meshes: a folder, a glob in quotes, a CSV manifest, or a file.")],
+    out_dir: Annotated[Path, typer.Option("--out", help="Folder for the drawings.")],
+    view: Annotated[Literal["front", "side", "top"], typer.Option(help="Where they are seen from.")] = "front",
+    format: Annotated[Literal["svg", "png"], typer.Option(help="Kind of file.")] = "svg",
+    up: Up = "y",
+    front: Front = None,
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Write silhouettes of meshes as drawings, which procedures that draw can be fitted to."""
+    from shapewright.cli.console import print_json
+    from shapewright.fitting.silhouette_drawings import write_silhouettes
+    from shapewright.references import Collection
+
+    loaded = Collection.load(references, up=up, front=front)
+    skipped = {str(path): reason for path, reason in loaded.skipped.items()}
+    paths, unseen = write_silhouettes(loaded, out_dir.absolute(), view, format, workers)
+    for name, reason in (skipped | unseen).items():
+        err.print(f"[yellow]skipped[/] {escape(name)}: {escape(reason)}", highlight=False, soft_wrap=True)
+    if json:
+        print_json({"out": str(out_dir.absolute()), "drawings": len(paths), "skipped": skipped | unseen})
+    else:
+        out.print(f"{len(paths)} drawings in {escape(str(out_dir))}", highlight=False)

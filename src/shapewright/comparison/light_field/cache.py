@@ -1,0 +1,63 @@
+"""Descriptors on disk, one file each, named by the geometry: a reference is described once, ever."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from shapewright.comparison.light_field.description import Descriptor, describe
+from shapewright.shapes import Mesh, mesh_digest
+
+FORMAT = 1
+"""Part of every file's name; raise it whenever the same mesh would get another descriptor."""
+
+_DAMAGED = (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile)
+_FORM = (10, 10, 47)
+
+
+@dataclass(frozen=True)
+class DescriptorCache:
+    """A folder of descriptors. Any number of processes may use it at once: files appear whole, by a rename."""
+
+    folder: Path
+
+    def describe(self, mesh: Mesh, bits: int = 4) -> Descriptor:
+        """The descriptor from the folder, or a new one that is put there; a damaged file is replaced.
+
+        Raises ValueError as ``descriptor.describe`` does, and OSError when the folder cannot be written.
+        """
+        path = self.folder / f"{mesh_digest(mesh)}-{bits}bit-v{FORMAT}.npz"
+        known = _read(path, bits)
+        if known is not None:
+            return known
+        descriptor = describe(mesh, bits)
+        self._write(path, descriptor)
+        return descriptor
+
+    def _write(self, path: Path, descriptor: Descriptor) -> None:
+        self.folder.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(suffix=".part", dir=self.folder)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                np.savez(file, coefficients=descriptor.coefficients)
+            Path(name).replace(path)
+        except BaseException:
+            Path(name).unlink(missing_ok=True)
+            raise
+
+
+def _read(path: Path, bits: int) -> Descriptor | None:
+    """None where there is no whole file; the archive's own checksum finds damage."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            coefficients = file["coefficients"]
+    except _DAMAGED:
+        return None
+    if coefficients.shape != _FORM or coefficients.dtype != np.uint8:
+        return None
+    return Descriptor.of(coefficients, bits)

@@ -1,0 +1,1 @@
+"""Causes: why a procedure does not replicate a reference."""

@@ -1,0 +1,119 @@
+"""What two surfaces' differences say about the parts of a shape: one is missing, one too many, or of another form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from shapewright.feedback.surfaces.residuals import Region, Residuals, pieces
+from shapewright.shapes import Floats
+
+Kind: TypeAlias = Literal["missing part", "surplus part", "wrong form"]
+
+_APART = 0.06  # mean distance from the replica at which a region is a part of its own, not the same part's other form
+_WHOLE = 0.6  # share of a part that has to be too much for the part to be
+_ALIKE = 1.6  # ratio of the sides of two boxes up to which they are the same part in two places
+_LESSER = 0.5  # of a surplus part where something is unexplained: it stands in for that
+_MINOR = 0.3  # of the weightiest difference: below, it is not told
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One kind of difference. weight: how much of the shape it concerns, and how far off."""
+
+    kind: Kind
+    text: str
+    weight: float
+    evidence: dict[str, Any]
+
+
+def differences(residuals: Residuals) -> tuple[Difference, ...]:
+    """What is different, the weightiest first; at least one, be it that nothing in particular stands out."""
+    whole = _whole_parts(residuals)
+    moved = _moved(residuals)
+    sorted_out: dict[Kind, list[Region]] = {"missing part": [], "surplus part": [], "wrong form": []}
+    for region in residuals:
+        if id(region) in moved:
+            kind: Kind = "wrong form"
+        elif region.side == "unexplained":
+            kind = "missing part" if region.distance > _APART else "wrong form"
+        else:
+            kind = "surplus part" if id(region) in whole else "wrong form"
+        sorted_out[kind].append(region)
+    weights = {kind: sum(region.weight for region in regions) for kind, regions in sorted_out.items()}
+    most = max(weights.values())
+    if most == 0.0:
+        text = "no part of the surface stands out; the difference is in small detail all over"
+        return (Difference("wrong form", text, 0.0, {"regions": 0, "share": 0.0}),)
+    unexplained = sum(region.weight for region in residuals.of("unexplained"))
+    weights["surplus part"] *= 1.0 if unexplained < _MINOR * most else _LESSER
+    told = [kind for kind in sorted(weights, key=lambda kind: -weights[kind]) if weights[kind] >= _MINOR * most]
+    return tuple(_told(kind, sorted_out[kind], weights[kind]) for kind in told)
+
+
+def _whole_parts(residuals: Residuals) -> set[int]:
+    """Surplus regions (ids) that hold most of a connected part of the replica."""
+    found: set[int] = set()
+    parts = pieces(residuals.replica, residuals.mesh)
+    for region in residuals.of("surplus"):
+        inside = np.zeros(len(residuals.replica.points), dtype=bool)
+        inside[region.rows] = True
+        of_parts = np.unique(parts[region.rows])
+        if any(inside[parts == part].mean() > _WHOLE for part in of_parts if part >= 0):
+            found.add(id(region))
+    return found
+
+
+def _moved(residuals: Residuals) -> set[int]:
+    """Regions (ids) of both sides that are the same part in two places: like boxes, not far from each other."""
+    found: set[int] = set()
+    free = list(residuals.of("surplus"))
+    for missing in residuals.of("unexplained"):
+        for surplus in free:
+            gap = float(np.linalg.norm(missing.centre - surplus.centre))
+            if gap < max(missing.size.max(), 0.15) and _alike(missing.size, surplus.size):
+                found |= {id(missing), id(surplus)}
+                free.remove(surplus)
+                break
+    return found
+
+
+def _alike(a: Floats, b: Floats) -> bool:
+    ratio = (np.sort(a) + 0.03) / (np.sort(b) + 0.03)
+    return bool(np.maximum(ratio, 1.0 / ratio).max() < _ALIKE)
+
+
+def _told(
+    kind: Literal["missing part", "surplus part", "wrong form"], regions: list[Region], weight: float
+) -> Difference:
+    share = {side: sum(r.share for r in regions if r.side == side) for side in ("unexplained", "surplus")}
+    chief = max(regions, key=lambda region: region.weight)
+    near = f" near {chief.label}" if chief.label else ""
+    size = " x ".join(f"{side:.2f}" for side in chief.size)
+    more = f" and {len(regions) - 1} more" if len(regions) > 1 else ""
+    match kind:
+        case "missing part":
+            text = f"a part is missing{near}: {size}{more}, {share['unexplained']:.0%} of the reference's surface"
+        case "surplus part":
+            what = chief.label or "a part"
+            text = f"{what} is too much: {size}{more}, {share['surplus']:.0%} of the replica's surface"
+        case "wrong form":
+            text = f"another form{' of ' + chief.label if chief.label else ''}: {size}{more}, {_shares(share)}"
+    evidence = {
+        "regions": len(regions),
+        "label": chief.label,
+        "rule": chief.rule,
+        "centre": chief.centre.round(4).tolist(),
+        "size": chief.size.round(4).tolist(),
+        "unexplained": round(share["unexplained"], 4),
+        "surplus": round(share["surplus"], 4),
+        "weight": round(weight, 5),
+    }
+    return Difference(kind, text, weight, evidence)
+
+
+def _shares(share: dict[str, float]) -> str:
+    told = [f"{value:.0%} of the surface {side}" for side, value in share.items() if value > 0.0]
+    return " and ".join(told)

@@ -1,0 +1,1 @@
+"""Ideas: changes of a procedure that could help."""

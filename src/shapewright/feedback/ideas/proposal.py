@@ -1,0 +1,98 @@
+"""A change of a procedure that is proposed, and the misfits that it is for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
+from shapewright.feedback.causes.ranges import End, pressed
+from shapewright.feedback.ideas.hypotheses import Hypothesis
+from shapewright.feedback.parts.attachment import separate
+from shapewright.feedback.writing.wording import Rule
+from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.shapes import Mesh
+
+Ranges = Mapping[str, tuple[float, float, float]]
+"""Low, high and default by the name of a parameter."""
+_LEAST_WAY = 0.05  # of the threshold: nearer shapes are as good as compatible
+
+
+@dataclass(frozen=True, eq=False)
+class Misfit:
+    """A reference that is not replicated: its index, what was found for it, and hypotheses, the best first.
+
+    parameters, replica: whose surface has most in common with the reference's. nearest: the parameters that are nearest
+    by the light field, where they are others; wide: the nearest that are known with longer Ranges. goal: the cost of a
+    hypothesis that may well be compatible; before: that of the nearest shape.
+    """
+
+    row: int
+    parameters: Parameters
+    replica: Mesh
+    hypotheses: tuple[Hypothesis, ...] = ()
+    nearest: Parameters | None = None
+    goal: float = THRESHOLD * RAW_SCALE
+    wide: Parameters | None = None
+    before: float = np.inf
+
+    @cached_property
+    def pieces(self) -> int:
+        """Into how many pieces its replica falls."""
+        return separate(self.replica)
+
+    def pressed(self, space: ParameterSpace) -> set[End]:
+        """The ends of Ranges that the nearest parameters rest on."""
+        return pressed(space, self.nearest or self.parameters)
+
+    def way(self, cost: float) -> float:
+        """How much of the way from the nearest shape to a compatible one another has come, 0 to 1."""
+        way = min(max(self.before / self.goal - 1.0, _LEAST_WAY), 1.0)
+        return min(max((1.0 + way - cost / self.goal) / way, 0.0), 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """A change to try. write: makes the changed source, given ranges. ranges: wide ones to begin with.
+
+    starts: values of the new parameters by misfit's index; others start at the medians. worth: how many references it
+    may help, roughly. rule: None for a wider Range, whose ends are given.
+    """
+
+    kind: str
+    title: str
+    write: Callable[[Ranges], str]
+    ranges: Ranges
+    starts: Mapping[int, Parameters]
+    worth: float
+    rule: Rule | None = None
+    ends: tuple[End, ...] = ()
+
+    def candidates(self, misfit: Misfit) -> list[Parameters]:
+        """Where a search may begin for a misfit."""
+        if self.rule is None:
+            return [known for known in (misfit.wide, misfit.nearest) if known] or [misfit.parameters]
+        middle: Parameters = {q.name: as_value(q.whole, self.ranges[q.name][2]) for q in self.rule.quantities}
+        flag: Parameters = {self.flag: self._on} if self.flag else {}
+        return [{**misfit.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}]
+
+    def uses(self, parameters: Parameters) -> bool:
+        """Whether parameters of the changed procedure make something that it did not make before."""
+        return self.flag is None or parameters[self.flag] == self._on
+
+    @property
+    def flag(self) -> str | None:
+        """The binary that switches the rule on, where there is one."""
+        return self.rule.flag if self.rule else None
+
+    @property
+    def _on(self) -> bool:
+        """What switches the rule on: one without a function makes a part optional, and is on where the part is not."""
+        return self.rule is not None and self.rule.function != ""
+
+
+def as_value(whole: bool, value: float) -> float | int:
+    return round(value) if whole else float(value)

@@ -1,0 +1,44 @@
+"""Parts that a shape stands on: which they are, and their form when they lean."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shapewright.shapes import Floats, Mesh, concatenate
+
+_FLOOR, _TALL = 0.05, 0.15  # of the largest extent: how low a part that may lean begins, and how tall it is at least
+
+
+def supports(replica: Mesh) -> tuple[str, ...]:
+    """Labels of the parts that stand on the floor, and are more than feet: those that may lean."""
+    found = []
+    for label in replica.label_names:
+        if (bounds := bounds_of(replica, label)) is not None:
+            low, high = (bounds[:, 1] - replica.bounds[0, 1]) / replica.extent.max()
+            found += [label] if low < _FLOOR and high - low > _TALL else []
+    return tuple(found)
+
+
+def splayed(part: Mesh, factors: Floats) -> Mesh:
+    """A part as wide as it is at its high end, by the factors at the low one, and evenly between."""
+    low, high = part.bounds
+    down = (high[1] - part.vertices[:, 1:2]) / max(high[1] - low[1], 1e-9)
+    middle = (low + high) / 2.0
+    return Mesh((part.vertices - middle) * (1.0 + (factors - 1.0) * np.clip(down, 0.0, 1.0)) + middle, part.faces)
+
+
+def with_splayed(replica: Mesh, label: str, factor: float) -> Mesh:
+    """A replica with one labelled part splayed by the factor, as a soup."""
+    assert replica.face_labels is not None
+    its = replica.face_labels == replica.label_names.index(label)
+    rest, part = Mesh(replica.vertices, replica.faces[~its]), Mesh(replica.vertices, replica.faces[its])
+    leaning = splayed(part, np.array([factor, 1.0, factor]))
+    return concatenate([rest, leaning]) if len(rest.faces) else leaning
+
+
+def bounds_of(replica: Mesh, label: str) -> Floats | None:
+    """The bounding box (2, 3) of a part, None where none of its faces are left."""
+    if replica.face_labels is None:
+        return None
+    faces = replica.faces[replica.face_labels == replica.label_names.index(label)]
+    return Mesh(replica.vertices, faces).bounds if len(faces) else None

@@ -1,0 +1,1 @@
+"""Surfaces of replica and reference, and where they differ."""

@@ -1,0 +1,128 @@
+"""Laying a replica over its reference, where a part that one of them lacks has moved its bounding box."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from shapewright.feedback.surfaces.visible import Surface
+from shapewright.shapes import Floats, Mesh, Transform
+
+FURTHEST = 0.05
+"""Distances beyond count as this: what has no counterpart must not pull."""
+UNIT = 100.0
+"""A residual of FURTHEST, for a search that takes a fifth of that as small."""
+_POINTS = 160
+_CLOSE = 0.006  # mean distance at which no other place is tried
+_BETTER = 0.85  # what another place must reach of the cost in the middle
+_SAME = 0.01
+_SCALES = (0.4, 2.5)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How one bounding box is laid over another.
+
+    axis: along which both are made equally long, None: as they are normalised. anchors: per axis what coincides, the
+    lower sides at 0, the upper ones at 1.
+    """
+
+    axis: int | None = None
+    anchors: tuple[float, float, float] = (0.5, 0.5, 0.5)
+
+    def transform(self, theirs: Floats, ours: Floats) -> Transform:
+        """The transform of ours, given both bounds, (2, 3)."""
+        extent, own = theirs[1] - theirs[0], np.maximum(ours[1] - ours[0], 1e-6)
+        scale = 1.0 if self.axis is None else float(extent[self.axis] / own[self.axis])
+        anchors = np.array(self.anchors)
+        shift = theirs[0] + anchors * extent - scale * (ours[0] + anchors * own)
+        return Transform(tuple(float(value) for value in -shift / scale), scale)
+
+
+MIDDLE = Fit()
+
+
+def place(reference: Surface, replica: Surface) -> tuple[Fit, Transform]:
+    """The scale and shift of a normalised replica under which the two surfaces are nearest to each other.
+
+    Tried are, per axis, equal extents, and lower sides, middles and upper sides that coincide.
+    """
+    bounds, own = _bounds(reference), _bounds(replica)
+    theirs, ours = _thinned(reference), _thinned(replica)
+    best = MIDDLE
+    least = float(_gaps(reference, replica, theirs, ours, best.transform(bounds, own)).mean())
+    if least < _CLOSE:
+        return best, best.transform(bounds, own)
+    least *= _BETTER
+    for fit in _different(bounds, own):
+        cost = float(_gaps(reference, replica, theirs, ours, fit.transform(bounds, own)).mean())
+        if cost < least:
+            best, least = fit, cost
+    return best, best.transform(bounds, own)
+
+
+class Overlay:
+    """How much of a reference's surface and of its replicas' lies apart, in the best of a few placements.
+
+    Unlike the light field distance it does not reward a replica that grows fat to make up for what it lacks: points
+    further than FURTHEST count alike, so what the two have in common decides. That tells best which parts are missing.
+    """
+
+    def __init__(self, reference: Surface, fits: Sequence[Fit]) -> None:
+        self._reference, self._points, self._bounds = reference, _thinned(reference, 300), _bounds(reference)
+        self._fits = tuple(dict.fromkeys([MIDDLE, *fits]))
+
+    def __call__(self, replica: Mesh) -> float:
+        """The cost, in units of the largest extent: 0 to FURTHEST; infinite for a replica without area."""
+        residual = self.residual(replica)
+        return np.inf if residual is None else float(residual.mean()) * FURTHEST / UNIT
+
+    def residual(self, replica: Mesh) -> Floats | None:
+        """What the cost is the mean of, (K,): distances of points of both surfaces, UNIT for FURTHEST and beyond.
+
+        None for a replica without area, or one whose extents have next to nothing of the reference's.
+        """
+        try:
+            surface = Surface.roughly(replica.normalised(), 1000)
+        except ValueError:
+            return None
+        own = _bounds(surface)
+        transforms = [fit.transform(self._bounds, own) for fit in self._fits]
+        allowed = [t for t in transforms if _SCALES[0] < t.scale < _SCALES[1]]
+        found = [_gaps(self._reference, surface, self._points, surface.points[::4], t) for t in allowed]
+        return min(found, key=lambda gaps: float(gaps.sum())) * (UNIT / FURTHEST)
+
+
+def _gaps(reference: Surface, replica: Surface, theirs: Floats, ours: Floats, transform: Transform) -> Floats:
+    """Distances there and back of points of two surfaces, none beyond FURTHEST; both sides count the same."""
+    there = transform.scale * replica.nearness(transform.invert(theirs), FURTHEST / transform.scale)
+    back = reference.nearness(transform.apply(ours), FURTHEST)
+    half = (len(there) + len(back)) / 2.0
+    return np.concatenate([there * (half / len(there)), back * (half / len(back))])
+
+
+def _different(theirs: Floats, ours: Floats) -> Iterator[Fit]:
+    """Fits whose scales differ, and whose shifts differ from each other's."""
+    scales: list[float] = []
+    for axis in (None, 0, 1, 2):
+        scale = Fit(axis).transform(theirs, ours).scale
+        if not _SCALES[0] < scale < _SCALES[1] or any(abs(scale - other) < _SAME for other in scales):
+            continue
+        scales.append(scale)
+        slack = np.abs((theirs[1] - theirs[0]) - scale * (ours[1] - ours[0]))
+        anchors = [(0.5, 0.0, 1.0) if gap > 2.0 * _SAME else (0.5,) for gap in slack]
+        for x, y, z in product(*anchors):
+            yield Fit(axis, (x, y, z))
+
+
+def _thinned(surface: Surface, count: int = _POINTS) -> Floats:
+    points = surface.points[surface.visible]
+    return points[:: max(1, len(points) // count)]
+
+
+def _bounds(surface: Surface) -> Floats:
+    points = surface.points[surface.visible]
+    return np.stack([points.min(axis=0), points.max(axis=0)])

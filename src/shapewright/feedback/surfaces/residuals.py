@@ -1,0 +1,180 @@
+"""Where a replica differs from its reference: regions of either surface that the other does not come near."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from shapewright.feedback.surfaces.oriented_boxes import Box, fit_box
+from shapewright.feedback.surfaces.placement import Fit, place
+from shapewright.feedback.surfaces.visible import SAMPLES, Surface
+from shapewright.shapes import Floats, Ints, Mesh, Transform
+
+Side = Literal["unexplained", "surplus"]
+FAR, NEAR = 0.04, 0.02
+"""A region holds a point further than FAR from the other surface, and all points around it further than NEAR."""
+LEAST = 0.004
+"""Share of the visible surface below which a region is not worth telling."""
+
+_VOTERS = 200  # points of a region that tell which part it is nearest to
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A connected part of one surface that the other does not come near.
+
+    All lengths are in units of the reference's largest extent and all places in the frame of the normalised reference
+    (Y up, front towards +Z, bounding box centred).
+
+    side: "unexplained", of the reference; "surplus", of the replica. points: (N, 3), spread evenly over it. box:
+    centre (3,), size (3,) along axes (3, 3), whose rows are unit vectors. share: of that side's visible surface, 0 to
+    1. distance: mean, to the other surface. label: of the replica's part that it lies on or nearest to, None where
+    that has none. rule: of the grammar, that made that part, where there is one. faces: of that side's mesh. rows: of
+    that side's ``Surface``.
+    """
+
+    side: Side
+    points: Floats
+    centre: Floats
+    size: Floats
+    axes: Floats
+    share: float
+    distance: float
+    label: str | None
+    rule: str | None
+    faces: Ints
+    rows: Ints
+
+    @property
+    def weight(self) -> float:
+        """How much it matters: share times distance."""
+        return self.share * self.distance
+
+
+@dataclass(frozen=True, eq=False)
+class Residuals:
+    """How far two surfaces are from each other, and where.
+
+    regions: the weightiest first. mesh: the replica as it was given. placement: takes its units to the frame of the
+    normalised reference; fit: how it was chosen. reference, replica: their surfaces in that frame. to_replica,
+    to_reference: distance of each of their points to the other surface, (N,) and (M,), in units of the reference's
+    largest extent. unexplained, surplus: shares of the visible surfaces that lie in regions.
+    """
+
+    regions: tuple[Region, ...]
+    placement: Transform
+    fit: Fit
+    mesh: Mesh
+    reference: Surface
+    replica: Surface
+    to_replica: Floats
+    to_reference: Floats
+
+    def __iter__(self) -> Iterator[Region]:
+        return iter(self.regions)
+
+    def of(self, side: Side) -> tuple[Region, ...]:
+        return tuple(region for region in self.regions if region.side == side)
+
+    @property
+    def unexplained(self) -> float:
+        return sum(region.share for region in self.of("unexplained"))
+
+    @property
+    def surplus(self) -> float:
+        return sum(region.share for region in self.of("surplus"))
+
+
+def residuals(reference: Mesh | Surface, replica: Mesh, samples: int = SAMPLES, seed: int = 0) -> Residuals:
+    """Compare the surfaces of a reference and its replica, of which only what can be seen from outside is judged.
+
+    The replica is first laid over the reference: both are upright, but a missing part moves the bounding box, so
+    besides the two boxes' middles their sides are tried. reference: the mesh, or the surface of the normalised mesh
+    where that is known. samples: points on each surface. Raises ValueError for a mesh without area.
+    """
+    of_reference = Surface.of(reference.normalised(), samples, seed) if isinstance(reference, Mesh) else reference
+    of_replica = Surface.of(replica.normalised(), samples, seed)
+    fit, shift = place(of_reference, of_replica)
+    of_replica = of_replica.moved(shift)
+    to_replica, to_reference = of_replica.distance(of_reference.points), of_reference.distance(of_replica.points)
+    regions = [
+        *_regions("unexplained", of_reference, to_replica, of_replica, replica),
+        *_regions("surplus", of_replica, to_reference, of_replica, replica),
+    ]
+    own = replica.normalisation()
+    centre = np.array(own.centre) + np.array(shift.centre) / own.scale
+    placement = Transform(tuple(float(value) for value in centre), own.scale * shift.scale)
+    ordered = tuple(sorted(regions, key=lambda region: -region.weight))
+    return Residuals(ordered, placement, fit, replica, of_reference, of_replica, to_replica, to_reference)
+
+
+def pieces(surface: Surface, mesh: Mesh) -> NDArray[np.intp]:
+    """Which piece of the mesh each point lies on, (N,): a piece is connected and of one label; -1 where none is."""
+    result = np.full(len(surface.points), -1, dtype=np.intp)
+    labels = np.full(len(surface.points), -1) if mesh.face_labels is None else mesh.face_labels[surface.faces]
+    count = 0
+    for label in np.unique(labels[labels >= 0]):
+        rows = np.flatnonzero(surface.visible & (labels == label))
+        number, component = _connected(surface, rows)
+        result[rows] = component + count
+        count += number
+    return result
+
+
+def _regions(side: Side, surface: Surface, distance: Floats, replica: Surface, mesh: Mesh) -> Iterator[Region]:
+    visible = int(surface.visible.sum())
+    for rows in _components(surface, distance):
+        if len(rows) < max(LEAST * visible, 8):
+            continue
+        points = surface.points[rows]
+        box: Box = fit_box(points)
+        some = points[:: max(1, len(points) // _VOTERS)]
+        faces = surface.faces[rows] if side == "surplus" else replica.faces[replica.tree.query(some)[1]]
+        yield Region(
+            side,
+            points,
+            box.centre,
+            box.size,
+            box.axes,
+            len(rows) / visible,
+            float(distance[rows].mean()),
+            _commonest(mesh, faces),
+            None,
+            np.unique(surface.faces[rows]),
+            rows,
+        )
+
+
+def _components(surface: Surface, distance: Floats) -> list[NDArray[np.intp]]:
+    """Rows of the points of each region: connected, all beyond NEAR and some beyond FAR."""
+    rows = np.flatnonzero(surface.visible & (distance > NEAR))
+    count, component = _connected(surface, rows)
+    far = np.zeros(count, dtype=bool)
+    far[component[distance[rows] > FAR]] = True
+    return [rows[component == number] for number in np.flatnonzero(far)]
+
+
+def _connected(surface: Surface, rows: NDArray[np.intp]) -> tuple[int, NDArray[np.intp]]:
+    """How many connected sets these points form, and which of them each belongs to."""
+    if not len(rows):
+        return 0, np.empty(0, dtype=np.intp)
+    pairs = cKDTree(surface.points[rows]).query_pairs(2.5 * surface.spacing, output_type="ndarray")
+    links = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(rows), len(rows)))
+    count, component = connected_components(links, directed=False)
+    return int(count), component
+
+
+def _commonest(mesh: Mesh, faces: Ints) -> str | None:
+    """The label that most of these faces have, None where most have none."""
+    if mesh.face_labels is None:
+        return None
+    labels, counts = np.unique(mesh.face_labels[faces], return_counts=True)
+    label = int(labels[counts.argmax()])
+    return mesh.label_names[label] if label >= 0 else None

@@ -1,0 +1,169 @@
+"""What of a mesh can be seen from outside: points spread evenly over its visible surface.
+
+References are triangle soups with faces inside them that nobody sees; only what some view shows is judged.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from shapewright.comparison.surfaces import sample
+from shapewright.feedback.surfaces.point_grid import Cells
+from shapewright.rendering.cameras import Camera, pack
+from shapewright.rendering.raster import draw_view
+from shapewright.shapes import Floats, Ints, Mesh, Transform
+
+Singles = NDArray[np.float32]
+SAMPLES = 4000
+_SIZE = 160
+_DISTANCE = 4.0
+_STEEPEST = 0.25  # cosine between a face and the view that still shows where it lies
+_ROUNDS = 3
+_NEARBY = 0.05  # up to which distance is measured by cells, which are quicker than a tree
+_REACH = 1.0  # spacings around a point within which its tangent plane stands for the surface
+
+
+def _all_round() -> tuple[Camera, ...]:
+    """26 cameras: in front of the faces, edges and corners of a cube."""
+    places = [np.array(place) for place in product((-1, 0, 1), repeat=3) if any(place)]
+    return tuple(
+        Camera(
+            math.degrees(math.atan2(x, z)),
+            math.degrees(math.atan2(y, math.hypot(x, z))),
+            _DISTANCE,
+            math.degrees(2.0 * math.atan(0.87 / math.sqrt(_DISTANCE**2 - 0.87**2))),
+        )
+        for x, y, z in places
+    )
+
+
+_CAMERAS = pack(_all_round())
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Points spread evenly over a mesh's surface. Units are those of the mesh.
+
+    points, normals: (N, 3), of either orientation. faces: (N,), the face each lies on. visible: (N,), whether some
+    view from outside shows it. area: of the surface that can be seen.
+    """
+
+    points: Floats
+    normals: Floats
+    faces: Ints
+    visible: NDArray[np.bool_]
+    area: float
+
+    @classmethod
+    def of(cls, mesh: Mesh, count: int = SAMPLES, seed: int = 0) -> Surface:
+        """At least ``count`` points, more where much of the surface is hidden, at most three times as many.
+
+        mesh: normalised. Raises ValueError for a mesh without area, or one that no view shows.
+        """
+        drawn, shown = [], []
+        views = _depths(mesh)
+        for number in range(_ROUNDS):
+            more = sample(mesh, count, seed + number)
+            drawn.append(more)
+            shown.append(_seen(more.points, more.normals, _CAMERAS, views))
+            if sum(int(seen.sum()) for seen in shown) >= count // 2:
+                break
+        visible = np.concatenate(shown)
+        if not visible.any():
+            raise ValueError("no view shows the mesh")
+        return cls(
+            np.concatenate([some.points for some in drawn]),
+            np.concatenate([some.normals for some in drawn]),
+            np.concatenate([some.faces for some in drawn]),
+            visible,
+            drawn[0].area * float(visible.mean()),
+        )
+
+    @classmethod
+    def roughly(cls, mesh: Mesh, count: int = 1000, seed: int = 0) -> Surface:
+        """``count`` points of the whole surface, all taken to be visible, as they are where nothing lies inside."""
+        drawn = sample(mesh, count, seed)
+        return cls(drawn.points, drawn.normals, drawn.faces, np.ones(count, dtype=bool), drawn.area)
+
+    @cached_property
+    def tree(self) -> cKDTree:
+        """Of all points, hidden ones too."""
+        return cKDTree(self.points)
+
+    @cached_property
+    def cells(self) -> Cells:
+        """All points, sorted into cells."""
+        return Cells.of(self.points, self.normals)
+
+    @cached_property
+    def spacing(self) -> float:
+        """Side of the square that each point stands for."""
+        return math.sqrt(self.area / max(int(self.visible.sum()), 1))
+
+    def moved(self, transform: Transform) -> Surface:
+        """The same points elsewhere."""
+        return replace(self, points=transform.apply(self.points), area=self.area * transform.scale**2)
+
+    def distance(self, points: Floats) -> Floats:
+        """Distance (M,) of points (M, 3) to the surface: to the tangent plane of the nearest point, near to it."""
+        found = self.nearness(points, _NEARBY)
+        far = np.flatnonzero(found >= _NEARBY)
+        straight, nearest = self.tree.query(points[far])
+        above = np.abs(((points[far] - self.points[nearest]) * self.normals[nearest]).sum(axis=1))
+        aside = np.sqrt(np.maximum(straight**2 - above**2, 0.0))
+        found[far] = np.hypot(above, np.maximum(aside - _REACH * self.spacing, 0.0))
+        return found
+
+    def nearness(self, points: Floats, most: float) -> Floats:
+        """The same, ``most`` where it is more: at a tenth of the time."""
+        return self.cells.distance(points, _REACH * self.spacing, most)
+
+
+def _depths(mesh: Mesh) -> Singles:
+    """One over the distance along the view, (C, size, size), 0 where there is nothing."""
+    inverse = np.empty((len(_CAMERAS), _SIZE, _SIZE), dtype=np.float32)
+    shade, projected = np.empty((_SIZE, _SIZE), dtype=np.float32), np.empty_like(mesh.vertices)
+    for camera, view in zip(_CAMERAS, inverse, strict=True):
+        draw_view(mesh.vertices, mesh.faces, camera, projected, shade, view)
+    return inverse
+
+
+@njit(nogil=True, cache=True)
+def _seen(points: Floats, normals: Floats, cameras: Floats, views: Singles) -> NDArray[np.bool_]:
+    """Whether a view shows each point: nothing there is nearer to the camera by more than a pixel's slant."""
+    seen = np.zeros(len(points), np.bool_)
+    half = views.shape[1] / 2.0
+    last = views.shape[1] - 1
+    for n in range(len(points)):
+        for c in range(len(cameras)):
+            camera = cameras[c]
+            right, up, towards, length, cosine = 0.0, 0.0, 0.0, 0.0, 0.0
+            for axis in range(3):
+                place = points[n, axis]
+                right += camera[axis] * place
+                up += camera[3 + axis] * place
+                towards += camera[6 + axis] * place
+                ray = camera[9] * camera[6 + axis] - place
+                length += ray * ray
+                cosine += ray * normals[n, axis]
+            cosine = abs(cosine) / math.sqrt(length)
+            if cosine <= _STEEPEST:
+                continue
+            away = camera[9] - towards
+            scale = camera[10] / away * half
+            column = min(max(int(half + scale * right), 0), last)
+            row = min(max(int(half - scale * up), 0), last)
+            if views[c, row, column] > 0.0:
+                slant = math.sqrt(max(1.0 - cosine * cosine, 0.0)) / cosine
+                if away - 1.0 / views[c, row, column] < (0.25 + slant) / scale:
+                    seen[n] = True
+                    break
+    return seen

@@ -1,0 +1,1 @@
+"""Trials: changed procedures, tried on the references."""

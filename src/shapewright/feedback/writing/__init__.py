@@ -1,0 +1,1 @@
+"""Writing: changes of the author's file."""

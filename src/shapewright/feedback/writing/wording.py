@@ -1,0 +1,173 @@
+"""From pieces that several misfits share to a rule in the author's own terms: a function, parameters with Ranges.
+
+Sizes and places are told relative to the bounding box of a part, or of the whole shape: that one which leaves the
+fewest quantities free. Those that are free become parameters.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shapewright.feedback.parts.pieces import Piece
+from shapewright.feedback.parts.relations import INNER, NEW, WHOLE, Frames, best_frame, bounds_as_told, inside_of
+from shapewright.feedback.writing.edit import NewParameter, NewRule
+from shapewright.feedback.writing.spelling import LINE, Quantity, noun, piece_lines, quoted
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A change in words. function: a template of its text, with {name}. quantities: what is to be a parameter.
+
+    flag: the binary that switches it on, None when the parameters' defaults leave the shape as it is.
+    """
+
+    name: str
+    flag: str | None
+    function: str
+    call: str
+    quantities: tuple[Quantity, ...]
+    imports: tuple[str, ...]
+
+    def spelled(self, ranges: Mapping[str, tuple[float, float, float]]) -> NewRule:
+        """The rule with these ranges (low, high, default) of its quantities."""
+        parameters = [q.parameter(*ranges[q.name], self.flag) for q in self.quantities]
+        if self.flag:
+            off = "True" if not self.function else "False"
+            parameters.insert(0, NewParameter(self.flag, "bool", off))
+        imports = {"shapewright.modelling.solids": self.imports} if self.imports else {}
+        if self.quantities:
+            imports = {"typing": ("Annotated",), "shapewright": ("Range",), **imports}
+        when = self.flag if self.function or not self.flag else f"not {self.flag}"
+        return NewRule(tuple(parameters), self.function, self.call, when, imports)
+
+
+def addition(
+    pieces: Sequence[Sequence[Piece]],
+    frames: Sequence[Frames],
+    removed: Sequence[str],
+    inset: Sequence[float] | None,
+    labels: Sequence[str],
+    free: Callable[[str], str],
+    note: str,
+) -> Rule:
+    """A rule that puts pieces in, perhaps in place of parts.
+
+    pieces: for each piece of the rule, how each misfit wants it. frames: of each misfit. removed: labels of the parts
+    that go. inset: how far each misfit wants the rest drawn in, None where it stays. labels: of the pieces, "" to be
+    named. free: makes a name of the file's that is not taken. note: for the docstring.
+    """
+    order = sorted(range(len(pieces)), key=lambda i: not any(pieces[i][0].mirrored))  # others reach from side to side
+    pieces, labels = [pieces[i] for i in order], [labels[i] for i in order]
+    nouns = _distinct([noun(several) for several in pieces])
+    stem = free("_and_".join(nouns)[:40].strip("_"))
+    body: list[str] = []
+    quantities: list[Quantity] = []
+    imports: list[str] = []
+    names: list[str] = []
+    known = [dict(each) for each in frames]
+    standing: dict[str, str] = {}
+    for several, word, label in zip(pieces, nouns, labels, strict=True):
+        frame, along = best_frame(several, known)
+        lines, asked, used = piece_lines(several, known, frame, along, free(word), label or word, standing)
+        for each, piece in zip(known, several, strict=True):
+            outer = bounds_as_told(piece, frame, along, each)
+            each[f"{NEW}{free(word)}"] = outer
+            each[f"{INNER}{NEW}{free(word)}"] = inside_of(piece, outer)
+        body += lines
+        quantities += asked
+        imports.append(used)
+        names.append(free(word))
+    rest = f"shape.without({', '.join(map(quoted, removed))})" if removed else "shape"
+    if inset is not None:
+        factor = free(f"{stem}_inset")
+        quantities.append(Quantity(factor, tuple(inset)))
+        rest = f"{rest}.scale(({factor}, 1, {factor}){_about(frames)})"
+    body.append(f"return {' | '.join([rest, *names])}")
+    verb = "replace" if removed else "add"
+    name = free(f"{verb}_{_plain(removed[0])}" if removed else f"{verb}_{stem}")
+    arguments = ", ".join(["shape", *(q.name for q in quantities)])
+    head = f"def {name}({arguments}):"
+    if len(head) > LINE + 4:
+        head = f"def {name}(\n    {arguments}\n):"
+    text = "\n    ".join([head, f'"""{note}"""', *body])
+    call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
+    return Rule(name, stem, text, call, tuple(quantities), tuple(dict.fromkeys(imports)))
+
+
+def drawing_in(
+    label: str,
+    scales: Sequence[tuple[float, float]],
+    frames: Sequence[Frames],
+    free: Callable[[str], str],
+    note: str,
+) -> Rule:
+    """A rule that draws a part in towards the middle, along x and z."""
+    plain = _plain(label)
+    quantities = _sideways(f"{plain}_inset", scales, free)
+    x, z = (quantity.name for quantity in quantities)
+    name = free(f"draw_in_{plain}")
+    lines = [
+        f"def {name}(shape, {x}, {z}):",
+        f'"""{note}"""',
+        f"return shape.without({quoted(label)}) | shape.part({quoted(label)}).scale(({x}, 1, {z}){_about(frames)})",
+    ]
+    return Rule(name, None, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
+
+
+def splaying(
+    label: str,
+    scales: Sequence[tuple[float, float]],
+    removed: Sequence[str],
+    everywhere: bool,
+    free: Callable[[str], str],
+    note: str,
+) -> Rule:
+    """A rule that moves the low end of a part away from its middle. everywhere: whether all shapes have the part."""
+    plain = _plain(label)
+    quantities = _sideways(f"{plain}_splay", scales, free)
+    x, z = (quantity.name for quantity in quantities)
+    name = free(f"splay_{plain}")
+    rest = f"shape.without({', '.join(map(quoted, [label, *removed]))})"
+    lines = [
+        f"def {name}(shape, {x}, {z}):",
+        f'"""{note}"""',
+        *([] if everywhere else [f"if {quoted(label)} not in shape.label_names:", "    return shape"]),
+        f'return {rest} | shape.part({quoted(label)}).taper(({x}, {z}), "-y")',
+    ]
+    flag = free(f"{plain}_splayed") if removed else None
+    return Rule(name, flag, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
+
+
+def removal(label: str, free: Callable[[str], str]) -> Rule:
+    """A rule that makes a part optional."""
+    flag = free(f"with_{_plain(label)}")
+    return Rule(flag, flag, "", f"{{shape}}.without({quoted(label)})", (), ())
+
+
+def _sideways(name: str, scales: Sequence[tuple[float, float]], free: Callable[[str], str]) -> tuple[Quantity, ...]:
+    """The factors along x and z that each misfit wants."""
+    return tuple(Quantity(free(f"{name}_{axis}"), tuple(scale[i] for scale in scales)) for i, axis in enumerate("xz"))
+
+
+def _about(frames: Sequence[Frames]) -> str:
+    """The argument that makes the shape's middle the one that stays, where that is not the origin."""
+    wholes = [each[WHOLE] for each in frames]
+    centred = all(np.abs(whole.sum(axis=0)[[0, 2]]).max() < 2e-3 * np.ptp(whole, axis=0).max() for whole in wholes)
+    return "" if centred else ", about=shape.bounds.mean(axis=0)"
+
+
+def _distinct(nouns: Sequence[str]) -> list[str]:
+    seen: dict[str, int] = {}
+    result = []
+    for word in nouns:
+        seen[word] = seen.get(word, 0) + 1
+        result.append(word if seen[word] == 1 else f"{word}_{seen[word]}")
+    return result
+
+
+def _plain(label: str) -> str:
+    return re.sub(r"\W+", "_", label).strip("_").lower()

@@ -1,0 +1,1 @@
+"""Fitting: one turn of the loop, stage after stage."""

@@ -1,0 +1,115 @@
+"""How well the parameters of a procedure can be found: the paper's table (section 5.1) for any procedure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from shapewright.building import Workers
+from shapewright.fitting.learning import Lesson, learn, limits_of
+from shapewright.judging.judge import judge_of
+from shapewright.prediction.inference import Metrics, score
+from shapewright.procedures import Procedure
+from shapewright.progress import Listener, Stages
+from shapewright.references import Collection
+from shapewright.search.search import refine
+from shapewright.settings import Settings
+
+REFINED = 100
+"""Held-out samples that refinement is measured on, at most, where no other number is asked for."""
+
+VIEWS = (1, 2, 3, 5)
+CAMERAS: tuple[Literal["fixed", "learned"], ...] = ("fixed", "learned")
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One training and what it gave on held-out samples, none of which it has seen.
+
+    metrics: of the network alone. refined: of the same rows after refinement, None where that is off.
+    """
+
+    settings: Settings
+    metrics: Metrics
+    refined: Metrics | None
+    seconds: float
+
+
+def evaluate(
+    procedure: Procedure,
+    settings: Sequence[Settings],
+    seeds: Sequence[int] = (0,),
+    progress: Listener | None = None,
+    refined: int = REFINED,
+) -> Iterator[Trial]:
+    """A trial for each of the settings with each seed, as they end. Raises ProcedureError as ``fit`` does.
+
+    refined: held-out samples that refinement is measured on, at most.
+    """
+    for setting in settings:
+        for seed in seeds:
+            chosen = replace(setting, seed=seed)
+            stages = Stages(progress)
+            with Workers(procedure, chosen.workers, limits_of(chosen)) as crew:
+                lesson = learn(procedure, crew, chosen, stages)
+                stages.end()
+                seconds = sum(stages.seconds.values())
+                found = None if chosen.refine == "off" else _refined(procedure, crew, lesson, chosen, stages, refined)
+            stages.end()
+            yield Trial(chosen, lesson.predictor.metrics, found, seconds)
+
+
+def variants(settings: Settings, compared: Literal["cameras", "views", "both"] | None) -> list[Settings]:
+    """The settings with each kind ("cameras") or number ("views") of cameras, or all combinations ("both")."""
+    found = [settings]
+    if compared in ("views", "both"):
+        found = [replace(each, views=views) for each in found for views in VIEWS]
+    if compared in ("cameras", "both"):
+        found = [replace(each, cameras=cameras) for each in found for cameras in CAMERAS]
+    return found
+
+
+def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, float]]]:
+    """Per parameter and measure (mae, or f1; and refined) the mean over the trials, the least and the most."""
+    table: dict[str, dict[str, tuple[float, float, float]]] = {}
+    for label, chosen in (("network", [t.metrics for t in trials]), ("refined", [t.refined for t in trials])):
+        for name in trials[0].metrics:
+            found = [m[name].get("mae", m[name].get("f1")) for m in chosen if m is not None and name in m]
+            values = [value for value in found if value is not None]
+            if values:
+                table.setdefault(name, {})[label] = (float(np.mean(values)), min(values), max(values))
+    return table
+
+
+def _refined(
+    procedure: Procedure, crew: Workers, lesson: Lesson, settings: Settings, stages: Stages, count: int
+) -> Metrics:
+    """The metrics after refinement, on the first ``count`` held-out rows."""
+    held_out = lesson.held_out.take(np.arange(min(count, len(lesson.held_out))))
+    shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
+    judge = judge_of(shapes, settings)
+    inferred = lesson.predictor.infer(held_out.shapes)
+    _, fields = judge.nearest(crew.build(lesson.predictor.decode(inferred)))
+    stages.begin("refine", 1)
+    found = refine(
+        procedure.space,
+        inferred,
+        crew,
+        judge.measure(range(len(fields)), fields),
+        lesson.budget(settings),
+        settings.seed,
+        goal=judge.goal,
+        progress=stages.step,
+        enough=judge.search_enough,
+        parts=judge.search_parts,
+        doubt=judge.search_doubt,
+    )
+    encoded = np.array([procedure.space.encode(values) for values in found], dtype=np.float32)
+    answers = [
+        np.eye(parameter.classes, dtype=np.float32)[encoded[:, i].astype(int)] if parameter.classes else encoded[:, i]
+        for i, parameter in enumerate(procedure.space)
+    ]
+    return score(procedure.space, answers, held_out.targets, held_out.active)

@@ -1,0 +1,42 @@
+"""Which way references face, where nobody knows: the quarter turn about the up axis at which a replica fits best."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shapewright.building import Workers
+from shapewright.comparison.light_field.aligned import AlignedCost
+from shapewright.prediction.predictor import Predictor
+from shapewright.references import Collection
+from shapewright.shapes import Mesh, Shape
+from shapewright.threads import in_threads
+
+_CLEARLY = 0.9
+"""A turn is made only if it lowers the cost to this share: what fits equally well either way stays as it is."""
+
+
+def quarter_turns(references: Collection, predictor: Predictor, crew: Workers) -> list[int]:
+    """How many quarter turns, 0 to 3, bring each reference to face as the procedure's shapes do.
+
+    Each mesh is predicted and built in all four positions; the costs of the replicas decide.
+    """
+    costs = np.array(
+        [_costs(references.turned([quarters] * len(references)), predictor, crew) for quarters in range(4)]
+    )
+    best = costs.argmin(axis=0)
+    clear = costs.min(axis=0) <= _CLEARLY * costs[0]
+    return [int(quarters) if turn else 0 for quarters, turn in zip(best, clear, strict=True)]
+
+
+def _costs(references: Collection, predictor: Predictor, crew: Workers) -> list[float]:
+    shapes = [reference.shape for reference in references]
+    builds = crew.build(predictor.predict(shapes))
+
+    def cost(pair: tuple[Shape, Shape | None]) -> float:
+        reference, replica = pair
+        if isinstance(reference, Mesh) and isinstance(replica, Mesh):
+            return AlignedCost(reference)(replica)
+        return np.inf
+
+    pairs = [(shape, build.shape) for shape, build in zip(shapes, builds, strict=True)]
+    return in_threads(cost, pairs, crew.count)

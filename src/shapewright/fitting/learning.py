@@ -1,0 +1,215 @@
+"""Learning a procedure: sample it, build and draw the samples, train a predictor on them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from shapewright.building import Build, Limits, Workers, describe_failures
+from shapewright.fitting.sensitivity import without_effect
+from shapewright.parameters import Parameters
+from shapewright.prediction.augmentation import augmented
+from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset, shapes_of, split
+from shapewright.prediction.devices import pick
+from shapewright.prediction.inference import measure
+from shapewright.prediction.predictor import Predictor
+from shapewright.prediction.training import Epoch, Schedule, train_network
+from shapewright.prediction.vgg import VGG19Network, find_weights
+from shapewright.procedures import Procedure
+from shapewright.progress import Listener, Stages
+from shapewright.rendering.cameras import PAGE, Camera, starting_views
+from shapewright.search.budgets import QUICK, THOROUGH, Budget
+from shapewright.search.drawing_budgets import DRAWN, DRAWN_THOROUGH
+from shapewright.settings import Settings
+from shapewright.shapes import Drawing, Shape
+
+FIRST = 256
+"""Samples that are built and drawn before all others, for the first answer."""
+Watcher = Callable[[Dataset], object]
+
+
+@dataclass(frozen=True, eq=False)
+class Lesson:
+    """A trained predictor, the samples it learned from and was measured on, and what is worth recording."""
+
+    predictor: Predictor
+    training: Dataset
+    validation: Dataset
+    held_out: Dataset
+    facts: dict[str, Any]
+
+    def budget(self, settings: Settings) -> Budget:
+        """How long to refine: what the settings say, or less where a shape takes long to build."""
+        drawn = self.training.kind is Drawing
+        budget, seconds = DRAWN if drawn else QUICK, settings.refine_seconds
+        if settings.refine == "thorough":
+            budget, seconds = DRAWN_THOROUGH if drawn else THOROUGH, 10.0 * settings.refine_seconds
+        evaluations = seconds / max(self.facts["build_seconds"], 1e-6)
+        return budget.within(evaluations, int(self.predictor.space.scalars.sum()))
+
+
+def train(procedure: Procedure, settings: Settings | None = None, progress: Listener | None = None) -> Predictor:
+    """Sample the procedure and train a predictor of its parameters. Raises ProcedureError as ``fit`` does."""
+    settings = settings or Settings()
+    stages = Stages(progress)
+    with Workers(procedure, settings.workers, limits_of(settings)) as crew:
+        lesson = learn(procedure, crew, settings, stages)
+    stages.end()
+    return lesson.predictor
+
+
+def learn(
+    procedure: Procedure,
+    crew: Workers,
+    settings: Settings,
+    stages: Stages,
+    previous: Predictor | None = None,
+    watch: Watcher | None = None,
+    kind: type[Shape] | None = None,
+) -> Lesson:
+    """Train on random samples of the whole space.
+
+    previous: a predictor of an earlier version of the procedure, whose network and cameras are gone on from. watch:
+    called with the first FIRST samples as soon as they are drawn. kind: what the procedure is to build, Mesh or
+    Drawing; by default what it builds.
+    """
+    space = procedure.space
+    schedule = _schedule(settings, previous)
+    count = min(settings.samples, settings.warm_samples) if previous else settings.samples
+    vectors = space.sample(count, seed=settings.seed)
+    stages.begin("sample", len(vectors))
+    builds = crew.build(vectors[:FIRST], give_up=True)
+    kind = kind or kind_of(builds)
+    cameras = _cameras(kind, settings, previous)
+    first = _draw(procedure, builds, cameras, settings, kind)
+    if watch:
+        watch(first)
+    builds += crew.build(vectors[FIRST:], lambda done, total: stages.step(FIRST + done, FIRST + total))
+    inert = without_effect(space, shapes_of(builds, kind)[0], crew.build, settings.seed, settings.workers)
+    stages.begin("render", len(vectors))
+    data = join([first, _draw(procedure, builds[FIRST:], cameras, settings, kind)]) if builds[FIRST:] else first
+    parts = [data.take(rows) for rows in split(len(data), settings.seed)]
+    if settings.augment:
+        parts[0] = augmented(parts[0], settings.seed, settings.workers)
+    failed = [build for build in builds if build.failure]
+    facts = {
+        "build_seconds": float(np.median([build.seconds for build in builds])),
+        "failed": len(failed),
+        "failures": describe_failures(failed) if failed else "",
+        "without_effect": inert,
+        "cameras": {"before": _places(cameras)},
+        "device": pick(schedule.device).type,
+    }
+    return _train(procedure, parts, facts, settings, schedule, stages, previous)
+
+
+def learn_more(
+    procedure: Procedure,
+    crew: Workers,
+    settings: Settings,
+    stages: Stages,
+    lesson: Lesson,
+    vectors: Sequence[Parameters],
+) -> Lesson:
+    """Go on training with further samples; those that predictions are measured on stay the same."""
+    stages.begin("sample", len(vectors))
+    builds = crew.build(vectors, stages.step)
+    stages.begin("render", len(vectors))
+    seen = {tuple(p.values()) for part in (lesson.validation, lesson.held_out) for p in part.parameters}
+    fresh = [build for build in builds if build.shape is not None and tuple(build.parameters.values()) not in seen]
+    if not fresh:
+        return lesson
+    added = _draw(procedure, fresh, lesson.predictor.cameras, settings, lesson.training.kind)
+    if settings.augment:
+        added = augmented(added, settings.seed + len(lesson.training), settings.workers)
+    training = join([lesson.training, added])
+    parts = [training, lesson.validation, lesson.held_out]
+    schedule = _schedule(settings, lesson.predictor)
+    return _train(procedure, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
+
+
+def limits_of(settings: Settings) -> Limits:
+    """What building one shape may cost."""
+    return Limits(settings.shape_seconds, settings.shape_memory_mb)
+
+
+def _train(
+    procedure: Procedure,
+    parts: Sequence[Dataset],
+    facts: dict[str, Any],
+    settings: Settings,
+    schedule: Schedule,
+    stages: Stages,
+    previous: Predictor | None,
+) -> Lesson:
+    training, validation, held_out = parts
+    if training.kind is Drawing:
+        schedule = replace(schedule, camera_rate=0.0)
+    stages.begin("train", schedule.epochs)
+
+    def tell(epoch: Epoch) -> None:
+        losses = {name: value if math.isfinite(value) else None for name, value in vars(epoch).items()}
+        stages.step(epoch.epoch, schedule.epochs, f"validation loss {epoch.validation:.3f}", losses)
+
+    initial = previous.network if previous else None
+    trained = train_network(procedure.space, training, validation, schedule, tell, settings.workers, initial)
+    held_out = held_out.seen_by(trained.cameras, settings.workers)
+    predictor = Predictor(
+        procedure.space,
+        trained.network,
+        trained.cameras,
+        settings.image_size,
+        measure(trained.network, procedure.space, held_out),
+        trained.curve,
+        sum(map(len, parts)),
+        settings.workers,
+    )
+    cameras = {**facts["cameras"], "after": _places(trained.cameras)}
+    weights = str(schedule.weights) if schedule.weights else None
+    validation, training = (part.seen_by(trained.cameras, settings.workers) for part in (validation, training))
+    return Lesson(predictor, training, validation, held_out, {**facts, "cameras": cameras, "weights": weights})
+
+
+def _cameras(kind: type[Shape], settings: Settings, previous: Predictor | None) -> tuple[Camera, ...]:
+    """Those of the previous predictor, where it has as many."""
+    cameras = (PAGE,) if kind is Drawing else starting_views(settings.views, settings.camera_distance)
+    inherit = previous and len(previous.cameras) == len(cameras) and kind is not Drawing
+    return previous.cameras if previous and inherit else cameras
+
+
+def _draw(
+    procedure: Procedure,
+    builds: Sequence[Build],
+    cameras: Sequence[Camera],
+    settings: Settings,
+    kind: type[Shape],
+) -> Dataset:
+    good, shapes = shapes_of(builds, kind)
+    vectors = [build.parameters for build in good]
+    return make_dataset(procedure.space, vectors, shapes, cameras, settings.image_size, settings.workers)
+
+
+def _schedule(settings: Settings, previous: Predictor | None) -> Schedule:
+    """How to train; weights are looked for here, so that a wrong path fails before anything is built."""
+    starts = settings.network == "vgg19" and not (previous and isinstance(previous.network, VGG19Network))
+    return Schedule(
+        epochs=settings.warm_epochs if previous else settings.epochs,
+        batch=settings.batch,
+        learning_rate=settings.learning_rate,
+        weight_decay=settings.weight_decay,
+        optimiser=settings.optimiser,
+        camera_rate=settings.camera_rate if settings.cameras == "learned" else 0.0,
+        network=settings.network,
+        weights=find_weights(settings.weights) if starts else None,
+        device=settings.device,
+        seed=settings.seed,
+    )
+
+
+def _places(cameras: Sequence[Camera]) -> list[list[float]]:
+    """Azimuth and elevation in degrees, and distance, of every camera that can be moved."""
+    return [[camera.azimuth, camera.elevation, camera.distance] for camera in cameras if camera != PAGE]

@@ -1,0 +1,151 @@
+"""Random shapes of a procedure, written as files: thousands of them, in parallel, and resumed where a run was stopped.
+
+The folder holds one file a shape, ``manifest.csv`` with a row for every parameter vector, and ``samples.json``, which
+says what the samples are of. A file is whole or not there, and the manifest never names one that is not.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import json
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, fields
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from shapewright.building import Build, Workers, cores, describe_failures
+from shapewright.parameters import Parameters
+from shapewright.procedures import Procedure
+from shapewright.runs.folder import RunError, check_free
+from shapewright.shapes import Drawing
+from shapewright.shapes.files import Format, encode
+from shapewright.shapes.soundness import Soundness
+
+MANIFEST, RECORD = "manifest.csv", "samples.json"
+_FORMAT = 1
+_CHUNK = 256
+_MEASURES = tuple(field.name for field in fields(Soundness))
+_PARTIAL = ".partial"
+
+
+@dataclass(frozen=True)
+class Samples:
+    """What a folder of samples holds: shapes, of these unsound, vectors without a shape; and why, in words."""
+
+    shapes: int
+    unsound: int
+    failed: int
+    failures: str
+
+
+def write_samples(
+    procedure: Procedure,
+    count: int,
+    folder: Path,
+    format: Format = "glb",
+    seed: int = 0,
+    workers: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Samples:
+    """Write shapes at ``count`` random parameter vectors and a manifest of these with the soundness of each shape.
+
+    A folder that holds the first samples of the same procedure, seed and format is gone on with. Drawings are written
+    as SVG; they have no soundness. Raises RunError when the folder holds something else or cannot be written (what is
+    there is then whole), ProcedureError when the procedure is broken.
+    """
+    vectors = procedure.space.sample(count, seed=seed)
+    record = _record(procedure, format, seed)
+    header = ["path", *procedure.space.names, "sound", *_MEASURES, "failure"]
+    try:
+        rows = _resume(folder, record, vectors)
+        failed: list[Build] = []
+        threads = workers or cores()
+        with Workers(procedure, workers) as crew, ThreadPoolExecutor(threads) as pool:
+            while len(rows) < len(vectors):
+                chunk = vectors[len(rows) : len(rows) + max(_CHUNK, len(rows) // 8)]
+                builds = crew.build(chunk)
+                failed += [build for build in builds if build.failure]
+                names = [f"{procedure.name}-{i:05d}" for i in range(len(rows), len(rows) + len(chunk))]
+                rows += pool.map(lambda name, build: _write_shape(folder, name, build, format, record), names, builds)
+                _write(folder / MANIFEST, _csv([header, *rows]))
+                if progress:
+                    progress(len(rows), len(vectors))
+    except OSError as error:
+        raise RunError(
+            f"{folder}: cannot be written: {error.strerror or error}; the shapes in its manifest are whole: "
+            "repeat the command to go on"
+        ) from error
+    return _summary(rows, failed, len(header))
+
+
+def _record(procedure: Procedure, format: str, seed: int) -> dict[str, Any]:
+    return {
+        "format": _FORMAT,
+        "procedure": procedure.name,
+        "source": hashlib.blake2b(procedure.source.encode(), digest_size=8).hexdigest(),
+        "files": format,
+        "seed": seed,
+        "version": version("shapewright"),
+    }
+
+
+def _resume(folder: Path, record: dict[str, Any], vectors: Sequence[Parameters]) -> list[list[str]]:
+    """The rows of the manifest that a folder has already; a new folder is begun."""
+    if not (folder / RECORD).exists():
+        check_free(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        _write(folder / RECORD, json.dumps(record, indent=1).encode())
+    for leftover in folder.glob(f"*{_PARTIAL}"):
+        leftover.unlink()
+    try:
+        begun = json.loads((folder / RECORD).read_text(encoding="utf-8"))
+        lines = (folder / MANIFEST).read_text(encoding="utf-8") if (folder / MANIFEST).exists() else ""
+    except ValueError as error:
+        raise RunError(f"{folder / RECORD}: cannot be read: {error}") from error
+    if begun != record:
+        differing = ", ".join(key for key in record if begun.get(key) != record[key])
+        raise RunError(f"{folder}: there are samples of another kind here (other {differing}); name another folder")
+    rows = list(csv.reader(io.StringIO(lines)))[1:][: len(vectors)]
+    for row, vector in zip(rows, vectors, strict=False):
+        if row[1 : 1 + len(vector)] != [str(value) for value in vector.values()]:
+            raise RunError(f"{folder}: its samples are not the first of these {len(vectors)}; name another folder")
+    return rows
+
+
+def _write_shape(folder: Path, name: str, build: Build, format: Format, record: dict[str, Any]) -> list[str]:
+    """Write one shape; returns its row of the manifest."""
+    values = [str(value) for value in build.parameters.values()]
+    if build.shape is None:
+        assert build.failure is not None
+        return ["", *values, *[""] * (1 + len(_MEASURES)), f"{build.failure.kind}: {build.failure.message}"]
+    extras = {key: record[key] for key in ("procedure", "version", "seed")} | {"parameters": dict(build.parameters)}
+    path = f"{name}.{'svg' if isinstance(build.shape, Drawing) else format}"
+    _write(folder / path, encode(build.shape, format, extras))
+    if isinstance(build.shape, Drawing):
+        return [path, *values, *[""] * (1 + len(_MEASURES)), ""]
+    state = build.shape.soundness()
+    return [path, *values, str(state.sound), *(str(getattr(state, name)) for name in _MEASURES), ""]
+
+
+def _summary(rows: Sequence[Sequence[str]], failed: Sequence[Build], columns: int) -> Samples:
+    shapes = [row for row in rows if row[0]]
+    sound = columns - len(_MEASURES) - 2
+    unsound = sum(row[sound] == "False" for row in shapes)
+    return Samples(len(shapes), unsound, len(rows) - len(shapes), describe_failures(failed) if failed else "")
+
+
+def _csv(rows: Sequence[Sequence[str]]) -> bytes:
+    text = io.StringIO(newline="")
+    csv.writer(text).writerows(rows)
+    return text.getvalue().encode()
+
+
+def _write(path: Path, data: bytes) -> None:
+    """Write a file so that it is whole or not there."""
+    partial = path.with_name(f".{path.name}{_PARTIAL}")
+    partial.write_bytes(data)
+    partial.replace(path)

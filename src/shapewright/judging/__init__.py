@@ -1,0 +1,1 @@
+"""Judging: whether a replica stands for its reference."""

@@ -1,0 +1,243 @@
+"""From the finished boxes of a derivation to a solid or a mesh."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from manifold3d import Manifold
+
+from shapewright.modelling.deformation import Deformation
+from shapewright.modelling.facets import Surface, deformed
+from shapewright.modelling.grammar.boxes import SIDES, Box
+from shapewright.modelling.grammar.forms import Fill, Round
+from shapewright.modelling.grammar.grid_union import unite
+from shapewright.modelling.solid.sections import without_repeats
+from shapewright.modelling.solid.solid import Solid, labelled, union
+from shapewright.shapes import Floats, Ints, Mesh, concatenate
+
+_CORNERS = np.array([(i >> 2 & 1, i >> 1 & 1, i & 1) for i in range(8)], dtype=bool)
+_QUADS = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+_TRIANGLES = _QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(12, 3)
+
+
+class Leaf(NamedTuple):
+    """A finished box, its label, and the name of the rule that made it."""
+
+    box: Box
+    label: str
+    rule: str
+
+
+def mesh(leaves: Sequence[Leaf], tolerance: float, by_rule: bool = False) -> Mesh:
+    """The union of all as a mesh, deformed group by group, its faces labelled by their labels or by their rules.
+
+    tolerance: how far facets may be from the smooth shape, a length.
+    """
+    if all(_is_plain(leaf.box) and not leaf.box.groups and not leaf.box.is_void for leaf in leaves):
+        united = _united(leaves, by_rule)
+        if united:
+            points, faces, owners, names = united
+            return Mesh(points, faces, owners, names)
+    return joined(leaves, tolerance, by_rule).mesh()
+
+
+def joined(leaves: Sequence[Leaf], tolerance: float, by_rule: bool = False) -> Solid:
+    """The same as a solid."""
+    solid, _ = _join(leaves, 0, tolerance, by_rule)
+    return solid or Solid(Manifold())
+
+
+def apart(leaves: Sequence[Leaf], tolerance: float, by_rule: bool = False) -> Mesh:
+    """Every box's own closed surface, without any union. Raises ValueError where there are voids to be cut."""
+    if any(leaf.box.is_void for leaf in leaves):
+        raise ValueError("voids can only be cut out when boxes are joined")
+    plain = [leaf for leaf in leaves if _is_plain(leaf.box) and not leaf.box.groups]
+    meshes = [_boxes(plain, by_rule)] if plain else []
+    for leaf in leaves:
+        if leaf.box.groups or not _is_plain(leaf.box):
+            surface, names = _surface(leaf, tolerance, by_rule)
+            for deformations in (leaf.box.deformations, *(group.deformations for group in reversed(leaf.box.groups))):
+                surface = deformed(surface, deformations, tolerance) if deformations else surface
+            faces, owners = surface.triangles()
+            meshes.append(Mesh(surface.points, faces, owners, names))
+    return concatenate(meshes)
+
+
+def _join(leaves: Sequence[Leaf], depth: int, tolerance: float, by_rule: bool) -> tuple[Solid | None, Solid | None]:
+    """The union of leaves that share their first ``depth`` groups, and the union of the voids among them."""
+    here = [leaf for leaf in leaves if len(leaf.box.groups) == depth]
+    inner: dict[object, list[Leaf]] = {}
+    for leaf in leaves:
+        if len(leaf.box.groups) > depth:
+            inner.setdefault(leaf.box.groups[depth], []).append(leaf)
+    solids = _solids([leaf for leaf in here if not leaf.box.is_void], tolerance, by_rule)
+    voids = _solids([leaf for leaf in here if leaf.box.is_void], tolerance, by_rule)
+    for members in inner.values():
+        group = members[0].box.groups[depth]
+        bent = _bent(members, depth, tolerance, by_rule)
+        if bent:
+            solids.append(bent)
+            continue
+        solid, void = _join(members, depth + 1, tolerance, by_rule)
+        if group.deformations:
+            solid = solid.deformed(group.deformations, tolerance) if solid else None
+            void = void.deformed(group.deformations, tolerance) if void else None
+        if group.scope:
+            solid, void = solid - void if solid and void else solid, None
+        solids += [solid] if solid else []
+        voids += [void] if void else []
+    return union(*solids) if solids else None, union(*voids) if voids else None
+
+
+def _bent(leaves: Sequence[Leaf], depth: int, tolerance: float, by_rule: bool) -> Solid | None:
+    """A group of plain boxes united and deformed without booleans, if it is one."""
+    if not all(len(leaf.box.groups) == depth + 1 and _is_plain(leaf.box) and not leaf.box.is_void for leaf in leaves):
+        return None
+    united = _united(leaves, by_rule)
+    if not united:
+        return None
+    points, faces, owners, names = united
+    return _solid(
+        Surface.of_triangles(points, faces, owners), leaves[0].box.groups[depth].deformations, tolerance, names
+    )
+
+
+def _solid(surface: Surface, deformations: Sequence[Deformation], tolerance: float, names: Sequence[str]) -> Solid:
+    """The solid in a surface after deformations, without the cuts that these turn out not to need."""
+    bent = deformed(surface, deformations, tolerance) if deformations else surface
+    solid = labelled(bent.points, *bent.triangles(), names)
+    return solid.simplified() if len(bent.points) > len(surface.points) else solid
+
+
+def _solids(leaves: Sequence[Leaf], tolerance: float, by_rule: bool) -> list[Solid]:
+    """The plain ones among leaves as one solid, if they can be stitched, and each of the others as its own."""
+    plain = [leaf for leaf in leaves if _is_plain(leaf.box)]
+    united = _united(plain, by_rule) if len(plain) > 1 else None
+    if not united:
+        return [_leaf_solid(leaf, tolerance, by_rule) for leaf in leaves]
+    others = [_leaf_solid(leaf, tolerance, by_rule) for leaf in leaves if not _is_plain(leaf.box)]
+    return [labelled(*united), *others]
+
+
+def _united(leaves: Sequence[Leaf], by_rule: bool) -> tuple[Floats, Ints, Ints, tuple[str, ...]] | None:
+    """Points, faces, owners and their labels of the union of plain boxes, if it can be stitched without booleans."""
+    names = tuple(dict.fromkeys(_name(leaf, by_rule) for leaf in leaves))
+    owners = np.array([names.index(_name(leaf, by_rule)) for leaf in leaves])
+    low, high = (np.array([getattr(leaf.box, end) for leaf in leaves]) for end in ("low", "high"))
+    united = unite(low, high, owners)
+    return (*united, names) if united else None
+
+
+def _leaf_solid(leaf: Leaf, tolerance: float, by_rule: bool) -> Solid:
+    box = leaf.box
+    if isinstance(box.form, Fill):
+        solid = _filled(leaf, box.form, by_rule)
+        return solid.deformed(box.deformations, tolerance) if box.deformations else solid
+    if _is_plain(box):
+        return labelled(_corner_points([box])[0], _TRIANGLES, np.zeros(12, dtype=np.int64), [_name(leaf, by_rule)])
+    surface, names = _surface(leaf, tolerance, by_rule)
+    return _solid(surface, box.deformations, tolerance, names)
+
+
+def _surface(leaf: Leaf, tolerance: float, by_rule: bool) -> tuple[Surface, tuple[str, ...]]:
+    """The surface of a leaf before its own deformations, and the labels that its owners stand for."""
+    box, name = leaf.box, _name(leaf, by_rule)
+    if isinstance(box.form, Fill):
+        mesh = _filled(leaf, box.form, by_rule).mesh()
+        assert mesh.face_labels is not None
+        surface, names = Surface.of_triangles(mesh.vertices, mesh.faces, mesh.face_labels), mesh.label_names
+    else:
+        surface = _rounded(box, box.form, tolerance) if box.form else _plain(box)
+        sides = {} if by_rule else dict(box.names)
+        names = tuple(dict.fromkeys([name, *(label for side, label in sides.items() if side)]))
+        owners = np.array([names.index(sides.get(side, name)) for side in SIDES])
+        surface = replace(surface, owners=owners[surface.owners])
+    return surface, names
+
+
+def _plain(box: Box) -> Surface:
+    owners = np.array([_side_towards(box, axis, sign) for axis in range(3) for sign in (-1, 1)])
+    return Surface(_corner_points([box])[0], _QUADS.ravel(), np.arange(0, 25, 4), owners)
+
+
+def _rounded(box: Box, form: Round, tolerance: float) -> Surface:
+    """A prism whose section is a rectangle with round corners, or an ellipse."""
+    u, v = (d for d in range(3) if d != form.axis)
+    half = np.array([box.size[u], box.size[v]]) / 2.0
+    radii = half if form.radius is None else np.full(2, form.radius)
+    reach = 2.0 * math.acos(max(1.0 - tolerance / radii.max(), 0.0))
+    steps = max(math.ceil(math.pi / 2.0 / reach), 2)
+    turn = np.linspace(0.0, math.pi / 2.0, steps + 1)
+    quarter = half - radii + radii * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    quarter[0, 0], quarter[-1, 1] = half
+    signs = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
+    ring = np.concatenate([sign * (quarter if sign.prod() > 0 else quarter[::-1]) for sign in signs])
+    low, high = np.array([box.low[u], box.low[v]]), np.array([box.high[u], box.high[v]])
+    ring = np.where(ring == half, high, np.where(ring == -half, low, (low + high) / 2.0 + ring))
+    ring = without_repeats(ring if form.axis != 1 else ring[::-1])  # x and z, seen from above, turn the other way
+    count = len(ring)
+    points = np.empty((2, count, 3))
+    points[..., [u, v]], points[0, :, form.axis], points[1, :, form.axis] = (
+        ring,
+        box.low[form.axis],
+        box.high[form.axis],
+    )
+    here = np.arange(count)
+    after = np.roll(here, -1)
+    sides = np.stack([here, after, after + count, here + count], axis=1)
+    corners = np.concatenate([sides.ravel(), here[::-1], here + count])
+    normals = ring[after] - ring[here]
+    normals = np.stack([normals[:, 1], -normals[:, 0]], axis=1) * (1.0 if form.axis != 1 else -1.0)
+    widest = np.abs(normals).argmax(axis=1)
+    owners = [_side_towards(box, (u, v)[d], int(np.sign(normals[i, d]))) for i, d in enumerate(widest)]
+    owners += [_side_towards(box, form.axis, -1), _side_towards(box, form.axis, 1)]
+    starts = np.concatenate([np.arange(0, 4 * count, 4), [4 * count, 5 * count, 6 * count]])
+    return Surface(points.reshape(-1, 3), corners, starts, np.array(owners))
+
+
+def _side_towards(box: Box, axis: int, sign: int) -> int:
+    """The index of the side of a box that faces along an axis of space, or against it."""
+    return 2 * axis + (sign * box.facing[axis] > 0)
+
+
+def _filled(leaf: Leaf, form: Fill, by_rule: bool) -> Solid:
+    box = leaf.box
+    low, high = np.array(box.low), np.array(box.high)
+    solid = form.make(tuple(high - low), **dict(form.arguments))
+    for axis, facing in zip("xyz", box.facing, strict=True):
+        if facing < 0:
+            solid = solid.mirror(axis)  # type: ignore[arg-type]
+    solid = solid.translate((low + high) / 2.0)
+    if by_rule or not solid.labels or dict(box.names).get(None):
+        return solid.label(_name(leaf, by_rule))
+    mesh = solid.manifold.to_mesh64()
+    names = [solid.labels.get(original, leaf.label) for original in mesh.run_original_id]
+    owners = np.repeat(np.arange(len(names)), np.diff(mesh.run_index) // 3)
+    return labelled(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64), owners, names)
+
+
+def _boxes(leaves: Sequence[Leaf], by_rule: bool) -> Mesh:
+    """The surfaces of plain boxes."""
+    names = tuple(dict.fromkeys(_name(leaf, by_rule) for leaf in leaves))
+    points = _corner_points([leaf.box for leaf in leaves])
+    faces = _TRIANGLES + 8 * np.arange(len(leaves))[:, None, None]
+    owners = np.repeat([names.index(_name(leaf, by_rule)) for leaf in leaves], 12)
+    return Mesh(points.reshape(-1, 3), faces.reshape(-1, 3), owners, names)
+
+
+def _corner_points(boxes: Sequence[Box]) -> Floats:
+    """(B, 8, 3)"""
+    low, high = np.array([box.low for box in boxes]), np.array([box.high for box in boxes])
+    return np.where(_CORNERS, high[:, None], low[:, None])
+
+
+def _is_plain(box: Box) -> bool:
+    return not (box.form or box.deformations or any(side for side, _ in box.names))
+
+
+def _name(leaf: Leaf, by_rule: bool) -> str:
+    return leaf.rule if by_rule else leaf.label

@@ -1,0 +1,348 @@
+"""Boxes to write rules with: they are divided into boxes, become patches, and are deformed.
+
+A box faces along each axis with one of its sides: its left and right, bottom and top, back and front are named, and
+its pieces counted, as it faces. A new box faces as space does: right is +x, top is +y, front is +z. A patch is a box
+without thickness along one axis, and faces away from the box whose side it is. A box never changes: each verb returns
+new ones, and raises ValueError when a size would be negative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
+
+import numpy as np
+
+from shapewright.modelling import arguments, deformation
+from shapewright.modelling.arguments import Axis, Direction, Point, Vector
+from shapewright.modelling.deformation import Deformation, Domain
+from shapewright.modelling.grammar import divisions
+from shapewright.modelling.grammar.divisions import Size
+from shapewright.modelling.grammar.forms import Fill, Group, Round
+from shapewright.modelling.solid.solid import Solid
+from shapewright.shapes import Floats
+
+Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
+T = TypeVar("T")
+SIDES: tuple[Side, ...] = ("left", "right", "bottom", "top", "back", "front")
+_ROUNDING = 1e-9
+
+
+class Box(NamedTuple):
+    """A box in space, or in the space of the deformed box that it is part of.
+
+    low, high: its corners. facing: 1, or -1 for each axis against which it faces. symbol: the tag that decides which
+    rules apply to it. names: its label (under None) and those of single sides. form: how it is rounded or filled.
+    deformations: its own, the first first. groups: those that it is part of, the outermost first.
+    A named tuple, because most of the time of a derivation goes into making boxes.
+    """
+
+    low: Point
+    high: Point
+    facing: tuple[int, int, int] = (1, 1, 1)
+    symbol: str = ""
+    names: tuple[tuple[Side | None, str], ...] = ()
+    form: Round | Fill | None = None
+    deformations: tuple[Deformation, ...] = ()
+    groups: tuple[Group, ...] = ()
+    is_void: bool = False
+
+    @property
+    def size(self) -> Point:
+        (ax, ay, az), (bx, by, bz) = self.low, self.high
+        return bx - ax, by - ay, bz - az
+
+    @property
+    def width(self) -> float:
+        return self.high[0] - self.low[0]
+
+    @property
+    def height(self) -> float:
+        return self.high[1] - self.low[1]
+
+    @property
+    def depth(self) -> float:
+        return self.high[2] - self.low[2]
+
+    # What it is
+
+    def tag(self, symbol: str) -> Box:
+        """The box with a tag: the rules for it apply next; without any, the box is done and the tag is its label."""
+        return self._replace(symbol=symbol)
+
+    def label(self, name: str, *sides: Side) -> Box:
+        """A label for all that the box becomes, instead of tags; or for some sides of a box that no rule divides."""
+        for side in sides:
+            _side("label", side)
+        mine = {key: value for key, value in self.names if key not in (sides or (None,))}
+        return self._replace(names=(*mine.items(), *((side, name) for side in sides or (None,))))
+
+    def void(self) -> Box:
+        """A hole: all that the box becomes is cut out of what the same rule makes besides."""
+        return self._replace(is_void=True)
+
+    def round(self, radius: float | None = None, axis: Axis = "y") -> Box:
+        """The edges along an axis rounded by a radius; without one as far as it goes, to an ellipse.
+
+        For a box that no rule divides; facets are as many as the curve needs.
+        """
+        index = arguments.axis("round", axis)
+        most = min(extent for d, extent in enumerate(self.size) if d != index) / 2.0
+        if radius is not None and not 0.0 <= arguments.number("round", "radius", radius) <= most + _ROUNDING:
+            raise ValueError(f"round: radius={radius!r} must lie in 0..{most:.4g}, half the lesser extent")
+        return self._replace(form=Round(index, radius) if radius != 0.0 else None)
+
+    def fill(self, make: Callable[..., Solid], **arguments: Any) -> Box:
+        """A solid instead of a plain box: of any function ``make(size, at=..., **arguments)``, such as ``cylinder``.
+
+        The solid faces as the box does. Its own labels are kept where the box has none.
+        """
+        return self._replace(form=Fill(make, tuple(arguments.items())))
+
+    # Where it is
+
+    def move(self, by: Vector) -> Box:
+        """The box moved by (x, y, z), as it faces."""
+        if self.deformations:
+            raise ValueError("move: a box that is deformed cannot be moved; move it first")
+        step = np.multiply(arguments.vector("move", "by", by), self.facing)
+        return self._replace(low=_point(step + self.low), high=_point(step + self.high))
+
+    def flip(self, axis: Axis) -> Box:
+        """The box facing the other way along an axis: what is made in it is mirrored."""
+        index = arguments.axis("flip", axis)
+        return self._replace(facing=_with(self.facing, index, -self.facing[index]))
+
+    # Dividing it
+
+    def split(self, axis: Direction, *sizes: Size) -> list[Box]:
+        """Pieces along an axis, one for each size: left to right, bottom to top, back to front ("-x": the other way).
+
+        A number is a length; ``...`` and ``share(weight)`` divide what the lengths leave. Without any of these the
+        lengths may leave some of the box unused.
+        """
+        return self._pieces("split", axis, lambda whole: divisions.split(whole, sizes))
+
+    def repeat(
+        self, axis: Direction, count: int | None = None, size: float | None = None, gap: float | None = None
+    ) -> list[Box]:
+        """Equal pieces along an axis with equal gaps between them, which fill it.
+
+        Two of the three are given, or the count or the size alone (then without gaps): ``count`` and ``gap`` leave the
+        size to be found, ``count`` and ``size`` the gap; ``size`` and ``gap`` the number that fits best, and then the
+        pieces are stretched to fill the axis.
+        """
+        return self._pieces("repeat", axis, lambda whole: divisions.repeat(whole, count, size, gap))
+
+    def inset(
+        self,
+        *,
+        x: float | tuple[float, float] = 0.0,
+        y: float | tuple[float, float] = 0.0,
+        z: float | tuple[float, float] = 0.0,
+    ) -> Box:
+        """The box smaller by so much at either end of an axis, or by (near, far): left, bottom and back are near.
+
+        Negative: larger.
+        """
+        low, high = list(self.low), list(self.high)
+        for index, margin in enumerate((x, y, z)):
+            if margin != 0.0:
+                near, far = arguments.pair("inset", "xyz"[index], margin)[:: self.facing[index]]
+                low[index], high[index] = low[index] + near, high[index] - far
+        return self._part("inset", _point(low), _point(high))
+
+    def _shortened(self, axis: Axis, margin: float) -> Box:
+        return self.inset(x=margin) if axis == "x" else self.inset(y=margin) if axis == "y" else self.inset(z=margin)
+
+    def sub(self, size: Sequence[float | None], anchor: Vector = (0.5, 0.5, 0.5)) -> Box:
+        """A box of its own size at a place in this one.
+
+        size: (width, height, depth), None for that of this box. anchor: where, along each axis: 0 at the near end
+        (left, bottom, back), 1 at the far end, 0.5 in the middle.
+        """
+        low, high = list(self.low), list(self.high)
+        for index, (extent, place) in enumerate(zip(size, arguments.vector("sub", "anchor", anchor), strict=True)):
+            if extent is not None:
+                room = self.high[index] - self.low[index] - extent
+                start = room * (place if self.facing[index] > 0 else 1.0 - place)
+                low[index] = self.low[index] + start
+                high[index] = self.high[index] if start == room else low[index] + extent
+        return self._part("sub", _point(low), _point(high))
+
+    def ends(self, axis: Axis, size: float) -> tuple[Box, Box]:
+        """The near and the far end of an axis, ``size`` long; each faces outwards, so they are mirror images."""
+        index, sign = self._domain.towards("ends", axis)
+        if not 0.0 <= arguments.number("ends", "size", size) <= self.size[index]:
+            raise ValueError(f"ends: size={size:.4g} along {axis} must lie in 0..{self.size[index]:.4g}")
+        near = self._between("ends", index, sign, 0.0, size)
+        far = self._between("ends", index, -sign, 0.0, size)
+        inwards, outwards = _with(self.facing, index, -sign), _with(self.facing, index, sign)
+        return near._replace(facing=inwards), far._replace(facing=outwards)
+
+    def corners(self, size: float | tuple[float, float], axis: Axis = "y") -> list[Box]:
+        """The four corners along an axis, such as legs; ``size``: of the section, one number or two.
+
+        Each faces outwards, so they are mirror images. For y: back left, back right, front left, front right.
+        """
+        first, second = _across(axis)
+        u, v = arguments.pair("corners", "size", size)
+        return [corner for row in self.ends(second, v) for corner in row.ends(first, u)]
+
+    def rails(self, corner: float | tuple[float, float], thickness: float | None = None, axis: Axis = "y") -> list[Box]:
+        """The four boxes that run from corner to corner around an axis, such as the rails of a table.
+
+        corner: the section of the corners, as in ``corners``. thickness: across, that of the corners by default. Each
+        faces outwards. For y: back, front, left, right.
+        """
+        first, second = _across(axis)
+        u, v = arguments.pair("rails", "corner", corner)
+        along = self._shortened(first, u).ends(second, v if thickness is None else thickness)
+        across = self._shortened(second, v).ends(first, u if thickness is None else thickness)
+        return [*along, *across]
+
+    # Patches
+
+    def face(self, side: Side) -> Box:
+        """The patch on a side: a box without thickness that faces outwards."""
+        index, sign = self._side_direction(side)
+        at = self.high[index] if sign > 0 else self.low[index]
+        patch = self._part("face", _with(self.low, index, at), _with(self.high, index, at))
+        return patch._replace(facing=_with(self.facing, index, sign))
+
+    def extrude(self, height: float) -> Box:
+        """A patch given thickness, outwards; a negative height goes inwards, into the box whose side it is."""
+        flat = [d for d, extent in enumerate(self.size) if extent == 0.0]
+        if len(flat) != 1:
+            raise ValueError("extrude: only a patch, a box without thickness along one axis, can be extruded")
+        index = flat[0]
+        step = arguments.number("extrude", "height", height) * self.facing[index]
+        a, b = sorted((self.low[index], self.low[index] + step))
+        return self._part("extrude", _with(self.low, index, a), _with(self.high, index, b))
+
+    # Deforming it, and with it all that it is divided into
+
+    def taper(self, scale: float | Sequence[float], axis: Direction = "y") -> Box:
+        """Narrower or wider along an axis: full at its near end, ``scale`` times as wide at the far end.
+
+        scale: one factor, or one each across (for y: x and z). axis: "-y" runs from the top down.
+        """
+        return self._deformed(deformation.taper(self._domain, scale, axis))
+
+    def profile(self, *scales: float | Sequence[float], axis: Direction = "y") -> Box:
+        """As ``taper``, with the factors along the axis on a Bezier curve of these values."""
+        return self._deformed(deformation.profile(self._domain, scales, axis))
+
+    def path(self, *offsets: Vector, axis: Direction = "y") -> Box:
+        """Sections across an axis, moved by offsets (x, y, z), as the box faces, on a Bezier curve of these points."""
+        return self._deformed(deformation.path(self._domain, offsets, axis))
+
+    def twist(self, degrees: float, axis: Direction = "y") -> Box:
+        """Turned about the middle of an axis: not at its near end, by ``degrees`` at the far end."""
+        return self._deformed(deformation.twist(self._domain, degrees, axis))
+
+    def bend(self, degrees: float, axis: Direction = "y", towards: Direction = "z", fixed: float = 0.0) -> Box:
+        """An axis bent to an arc of its own length, its far end turned by ``degrees`` towards another axis.
+
+        fixed: the place along the axis that stays, 0 for its near end, 0.5 for the middle.
+        """
+        bent = deformation.bend(self._domain, degrees, axis, towards, fixed)
+        return self._deformed(bent) if bent else self
+
+    def bulge(self, height: float, on: Side | Box = "top") -> Box:
+        """A side, or a patch of one, pushed out in the middle by ``height`` (negative: in) and not at its edges."""
+        if isinstance(on, Box):
+            flat = [d for d, extent in enumerate(on.size) if extent == 0.0]
+            if len(flat) != 1:
+                raise ValueError("bulge: give a side, or a patch of one")
+            axis = "xyz"[flat[0]] if on.facing[flat[0]] == self.facing[flat[0]] else f"-{'xyz'[flat[0]]}"
+            return self._deformed(deformation.bulge(self._domain, height, axis, (on.low, on.high)))
+        index, sign = self._side_direction(on)
+        axis = "xyz"[index] if sign == self.facing[index] else f"-{'xyz'[index]}"
+        round_ = isinstance(self.form, Round) and self.form.radius is None and self.form.axis == index
+        return self._deformed(deformation.bulge(self._domain, height, axis, round=round_))
+
+    def rotate(self, degrees: float, axis: Direction = "y", about: Vector = (0.5, 0.5, 0.5)) -> Box:
+        """Turned about an axis through a place in the box: 0 to 1 along each axis, from left, bottom and back."""
+        place = arguments.vector("rotate", "about", about)
+        return self._deformed(deformation.turn(self._domain, degrees, axis, place))
+
+    def deform(self, function: Callable[[Floats], Floats]) -> Box:
+        """Every point moved by a function of points (N, 3), relative to the middle of the box, as the box faces."""
+        return self._deformed(deformation.Free(function, self._domain.centre, self.facing))
+
+    def within(self) -> Box:
+        """The space inside the box, before its deformations: what its rule is given to divide."""
+        return Box(self.low, self.high, self.facing, "", self.names, self.form, (), self._inner_groups, self.is_void)
+
+    # Inner workings
+
+    @property
+    def _inner_groups(self) -> tuple[Group, ...]:
+        return (*self.groups, Group(self.deformations)) if self.deformations else self.groups
+
+    @property
+    def _domain(self) -> Domain:
+        return Domain(self.low, self.high, self.facing)
+
+    def _deformed(self, by: Deformation) -> Box:
+        return self._replace(deformations=(*self.deformations, by))
+
+    def _side_direction(self, side: Side) -> tuple[int, int]:
+        index, sign = divmod(_side("face", side), 2)
+        return index, self.facing[index] * (1 if sign else -1)
+
+    def _pieces(self, verb: str, axis: str, divide: Callable[[float], list[tuple[float, float]]]) -> list[Box]:
+        index, sign = self._domain.towards(verb, axis)
+        whole = self.high[index] - self.low[index]
+        try:
+            ends = divide(whole)
+        except ValueError as error:
+            raise ValueError(f"{verb} along {axis}: {error}") from error
+        return [self._between(verb, index, sign, start, end) for start, end in ends]
+
+    def _between(self, verb: str, index: int, sign: int, start: float, end: float) -> Box:
+        """The piece between two lengths from an end of an axis; neighbours meet in exactly the same coordinate."""
+        near, far = (self.low[index], self.high[index])[::sign]
+        whole = self.high[index] - self.low[index]
+        first = far if start == whole else near + sign * start
+        last = far if end == whole else near + sign * end
+        if sign < 0:
+            first, last = last, first
+        return self._part(verb, _with(self.low, index, first), _with(self.high, index, last))
+
+    def _part(self, verb: str, low: Point, high: Point) -> Box:
+        """A box within the deformations of this one, which keeps its label."""
+        if self.form:
+            raise ValueError(f"{verb}: a box that is rounded or filled cannot be divided or moved; do that first")
+        if high[0] < low[0] or high[1] < low[1] or high[2] < low[2]:
+            size = " x ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
+            raise ValueError(f"{verb}: a box of {size} would have a negative size")
+        whole = tuple(entry for entry in self.names if entry[0] is None) if self.names else ()
+        return Box(low, high, self.facing, "", whole, None, (), self._inner_groups, self.is_void)
+
+    def __str__(self) -> str:
+        size = " x ".join(f"{extent:.4g}" for extent in self.size)
+        least = _ROUNDING * max(self.size)
+        centre = ", ".join(f"{middle if abs(middle) > least else 0.0:.4g}" for middle in self._domain.centre)
+        return f"{size} at ({centre})"
+
+
+def _point(values: Iterable[float]) -> Point:
+    x, y, z = map(float, values)
+    return x, y, z
+
+
+def _side(verb: str, side: str) -> int:
+    if side not in SIDES:
+        raise ValueError(f"{verb}: {side!r} must be one of {', '.join(SIDES)}")
+    return SIDES.index(side)
+
+
+def _with(values: tuple[T, T, T], index: int, value: T) -> tuple[T, T, T]:
+    a, b, c = values
+    return (value, b, c) if index == 0 else (a, value, c) if index == 1 else (a, b, value)
+
+
+def _across(axis: Axis) -> tuple[Axis, Axis]:
+    return ("y", "z") if axis == "x" else ("x", "z") if axis == "y" else ("x", "y")

@@ -1,0 +1,1 @@
+"""Solids: closed volumes with labelled parts."""

@@ -1,0 +1,295 @@
+"""A solid: a closed volume with labelled parts, its moves, booleans and deformations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from manifold3d import Error, Manifold, Mesh64, OpType
+
+from shapewright.modelling import arguments, deformation
+from shapewright.modelling.arguments import ORIGIN, Axis, Direction, Vector
+from shapewright.modelling.curves import TOLERANCE
+from shapewright.modelling.solid.alignment import aligned, manifold_of
+from shapewright.shapes import Floats, Ints, Mesh
+from shapewright.shapes.slivers import SLIVER, has_slivers, heights, without_slivers
+
+if TYPE_CHECKING:
+    from shapewright.modelling.deformation import Deformation
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solid:
+    """A closed volume, possibly empty, whose faces know the label of the part that they came from.
+
+    manifold: the geometry; wrap a manifold3d.Manifold of your own as ``Solid(manifold)``.
+    labels: the label of each original of manifold3d (the ids in ``run_original_id``) that has one.
+    split: gives the solids that it was united from, None where it is of one piece.
+    """
+
+    manifold: Manifold
+    labels: Mapping[int, str] = field(default_factory=dict)
+    split: Callable[[], tuple[Solid, ...]] | None = field(default=None, repr=False)
+
+    @property
+    def pieces(self) -> tuple[Solid, ...]:
+        """The solids that it was united from, moved, cut and deformed as the whole was since."""
+        return self.split() if self.split else (self,)
+
+    @property
+    def label_names(self) -> tuple[str, ...]:
+        """The labels of its pieces."""
+        return tuple(dict.fromkeys(self.labels.values()))
+
+    def part(self, name: str) -> Solid:
+        """Its pieces that bear a label, whole, not only what of them can be seen: ``table.part("top").bounds``.
+
+        Raises ValueError when there is none.
+        """
+        found = [piece for piece in self.pieces if name in piece.labels.values()]
+        if not found:
+            labels = ", ".join(self.label_names) or "none"
+            raise ValueError(f"part: no piece is labelled {name!r}; the labels are: {labels}")
+        return union(*found)
+
+    def without(self, *names: str) -> Solid:
+        """The solid without the pieces that bear these labels and no other; empty when nothing is left."""
+        kept = [piece for piece in self.pieces if not piece.labels or set(piece.labels.values()) - set(names)]
+        return union(*kept) if kept else Solid(Manifold())
+
+    def label(self, name: str) -> Solid:
+        """The same solid as one part called ``name``; it replaces the labels it had."""
+        original = self.manifold.as_original()
+        return Solid(original, {original.original_id(): name})
+
+    def __or__(self, other: Solid) -> Solid:
+        """Union."""
+        if not isinstance(other, Solid):
+            return NotImplemented
+        return union(self, other)
+
+    def __and__(self, other: Solid) -> Solid:
+        """Intersection."""
+        if not isinstance(other, Solid):
+            return NotImplemented
+        a, b = aligned((self.manifold, other.manifold))
+        return Solid(a ^ b, {**self.labels, **other.labels}, self._each(lambda piece: piece & other))
+
+    def __sub__(self, other: Solid) -> Solid:
+        """Difference; the faces of a cut bear the label of what cut them."""
+        if not isinstance(other, Solid):
+            return NotImplemented
+        a, b = aligned((self.manifold, other.manifold), facing=1)
+        return Solid(a - b, {**self.labels, **other.labels}, self._each(lambda piece: piece - other))
+
+    def translate(self, by: Vector) -> Solid:
+        step = arguments.vector("translate", "by", by)
+        return Solid(self.manifold.translate(step), self.labels, self._each(lambda piece: piece.translate(step)))
+
+    def rotate(self, degrees: float, axis: Axis = "y", about: Vector = ORIGIN) -> Solid:
+        turn, (x, y, z) = arguments.number("rotate", "degrees", degrees), _unit("rotate", axis)
+        return self._about("rotate", about, lambda manifold: manifold.rotate((turn * x, turn * y, turn * z)))
+
+    def scale(self, factor: float | Vector, about: Vector = ORIGIN) -> Solid:
+        """Larger or smaller by a positive factor, or by one along each axis."""
+        factors = arguments.size("scale", factor, "factor")
+        return self._about("scale", about, lambda manifold: manifold.scale(factors))
+
+    def mirror(self, axis: Axis, keep: bool = False, about: Vector = ORIGIN) -> Solid:
+        """The mirror image along an axis; ``keep`` unites it with the original."""
+        normal = _unit("mirror", axis)
+        image = self._about("mirror", about, lambda manifold: manifold.mirror(normal))
+        return self | image if keep else image
+
+    def array(self, count: int, step: Vector) -> Solid:
+        """The union of ``count`` copies, each ``step`` further than the one before, from where this one is."""
+        x, y, z = arguments.vector("array", "step", step)
+        return union(*(self.translate((i * x, i * y, i * z)) for i in range(arguments.count("array", count, 1))))
+
+    def polar_array(self, count: int, axis: Axis = "y", about: Vector = ORIGIN) -> Solid:
+        """The union of ``count`` copies spread evenly around an axis, the first of them where this one is."""
+        number = arguments.count("polar_array", count, 1)
+        return union(*(self.rotate(360 * i / number, axis, about) for i in range(number)))
+
+    def taper(self, scale: float | Sequence[float], axis: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
+        """Narrower or wider along an axis: full at its low end, ``scale`` times as wide at the other.
+
+        scale: one factor, or one each across (for y: x and z). "-y" runs from the top down. tolerance, here and below:
+        how far facets may be from the smooth shape, as a part of the largest extent.
+        """
+        return self._deformed(deformation.taper(self._domain, scale, axis), tolerance)
+
+    def profile(self, *scales: float | Sequence[float], axis: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
+        """As ``taper``, with the factors along the axis on a Bezier curve of these values."""
+        return self._deformed(deformation.profile(self._domain, scales, axis), tolerance)
+
+    def path(self, *offsets: Vector, axis: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
+        """Sections across an axis, moved aside by offsets (x, y, z) on a Bezier curve of these points."""
+        return self._deformed(deformation.path(self._domain, offsets, axis), tolerance)
+
+    def twist(self, degrees: float, axis: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
+        """Turned about the middle of an axis: not at its low end, by ``degrees`` at the other."""
+        return self._deformed(deformation.twist(self._domain, degrees, axis), tolerance)
+
+    def bend(
+        self,
+        degrees: float,
+        axis: Direction = "y",
+        towards: Direction = "z",
+        fixed: float = 0.0,
+        tolerance: float = TOLERANCE,
+    ) -> Solid:
+        """An axis bent to an arc of its own length, its far end turned by ``degrees`` towards another axis.
+
+        fixed: the place along the axis that stays, 0 for its low end, 0.5 for the middle.
+        Raises ValueError when the bend is too tight for the solid's thickness.
+        """
+        bent = deformation.bend(self._domain, degrees, axis, towards, fixed)
+        return self._deformed(bent, tolerance) if bent else self
+
+    def bulge(self, height: float, face: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
+        """The side that faces a direction, pushed out in the middle by ``height``; negative for in."""
+        return self._deformed(deformation.bulge(self._domain, height, face), tolerance)
+
+    def deform(self, function: Callable[[Floats], Floats], tolerance: float = TOLERANCE) -> Solid:
+        """Every point moved by a function from points (N, 3) to points (N, 3), which must not fold space."""
+        return self._deformed(deformation.Free(function, ORIGIN, (1, 1, 1)), tolerance)
+
+    def deformed(self, deformations: Sequence[Deformation], tolerance: float) -> Solid:
+        """The solid after all deformations, the first first; tolerance: how far facets may be off, a length."""
+        from shapewright.modelling import facets  # compiled code, which takes a while to load
+
+        mesh = self.manifold.to_mesh64()
+        if not len(mesh.tri_verts):
+            return self
+        owners = np.repeat(np.arange(len(mesh.run_original_id)), np.diff(mesh.run_index) // 3)
+        surface = facets.Surface.of_triangles(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64), owners)
+        surface = facets.deformed(surface, deformations, tolerance)
+        made = manifold_of(surface.points, *surface.triangles(), mesh.run_original_id)
+        split = self._each(lambda piece: piece.deformed(deformations, tolerance))
+        return Solid(made, self.labels, split).simplified()
+
+    def simplified(self) -> Solid:
+        """The solid without points that its shape does not need, within a millionth of its largest extent."""
+        if self.checked().manifold.is_empty():
+            return self
+        least = SLIVER * float(np.ptp(self.bounds, axis=0).max())
+        return Solid(self.manifold.simplify(least), self.labels, self.split)
+
+    def mesh(self) -> Mesh:
+        """Closed triangles, wound counter-clockwise seen from outside, with the labels; without faces if empty.
+
+        Edges and heights of triangles below a millionth of the largest extent are removed.
+        """
+        if self.checked().manifold.is_empty():
+            return Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
+        mesh, least = self._triangles(self.manifold), SLIVER * float(np.ptp(self.bounds, axis=0).max())
+        if not has_slivers(mesh.triangles, least):
+            return mesh
+        mesh = self._mended(least)  # booleans of flush faces leave triangles without area
+        if not (heights(mesh.triangles) < least).any():
+            return mesh
+        # Those that stay lie between ribbons hardly higher than themselves, which have to go with them.
+        coarser = (self._mended(times * least) for times in (10.0, 100.0))
+        return next((mended for mended in coarser if mended.soundness().sound), mesh)
+
+    def _mended(self, least: float) -> Mesh:
+        """The mesh without edges, and as far as possible without triangles' heights, below ``least``."""
+        mesh = self._triangles(self.manifold.simplify(least))
+        labels = np.zeros(len(mesh.faces), dtype=np.int64) if mesh.face_labels is None else mesh.face_labels
+        vertices, faces, labels = without_slivers(mesh.vertices, mesh.faces, labels, least)
+        return Mesh(vertices, faces, labels if mesh.label_names else None, mesh.label_names)
+
+    def _triangles(self, manifold: Manifold) -> Mesh:
+        """A manifold's triangles, with the labels of this solid."""
+        mesh = manifold.to_mesh64()
+        lengths = np.diff(mesh.run_index) // 3
+        runs = [self.labels.get(original) for original in mesh.run_original_id]
+        present = {name for name, length in zip(runs, lengths, strict=True) if length}
+        names = tuple(dict.fromkeys(name for name in self.labels.values() if name in present))
+        index: dict[str | None, int] = {name: i for i, name in enumerate(names)}
+        owners = np.repeat(np.array([index.get(name, -1) for name in runs], dtype=np.int64), lengths)
+        vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
+        return Mesh(vertices, faces, owners if names else None, names)
+
+    def checked(self) -> Solid:
+        """The solid itself. Raises ValueError when manifold3d could not make it."""
+        if self.manifold.status() != Error.NoError:
+            raise ValueError(f"the solid has no geometry: manifold3d reports {self.manifold.status().name}")
+        return self
+
+    @property
+    def volume(self) -> float:
+        return float(self.manifold.volume())
+
+    @property
+    def bounds(self) -> Floats:
+        """(2, 3): the least and the greatest corner. Raises ValueError for an empty solid."""
+        if self.manifold.is_empty():
+            raise ValueError("an empty solid has no bounds")
+        return np.array(self.manifold.bounding_box(), dtype=np.float64).reshape(2, 3)
+
+    def _about(self, function: str, about: Vector, move: Callable[[Manifold], Manifold]) -> Solid:
+        x, y, z = arguments.vector(function, "about", about)
+        split = self._each(lambda piece: piece._about(function, about, move))
+        if x == y == z == 0.0:
+            return Solid(move(self.manifold), self.labels, split)
+        return Solid(move(self.manifold.translate((-x, -y, -z))).translate((x, y, z)), self.labels, split)
+
+    def _each(self, change: Callable[[Solid], Solid]) -> Callable[[], tuple[Solid, ...]] | None:
+        """The pieces after a change, made when they are asked for."""
+        return (lambda: tuple(change(piece) for piece in self.pieces)) if self.split else None
+
+    @property
+    def _domain(self) -> deformation.Domain:
+        low, high = (tuple(corner) for corner in self.bounds.tolist())
+        return deformation.Domain(low, high)
+
+    def _deformed(self, by: Deformation, tolerance: float) -> Solid:
+        slack = arguments.positive("deform", "tolerance", tolerance) * float(np.ptp(self.bounds, axis=0).max())
+        return self.deformed((by,), slack)
+
+    def __repr__(self) -> str:
+        return f"Solid({', '.join([f'{self.manifold.num_tri()} triangles', *dict.fromkeys(self.labels.values())])})"
+
+
+def union(*solids: Solid) -> Solid:
+    """All of them as one. Raises ValueError when there is none."""
+    if not solids:
+        raise ValueError("union: there is nothing to unite")
+    if len(solids) == 1:
+        return solids[0]
+    labels = {original: name for solid in solids for original, name in solid.labels.items()}
+    made = Manifold.batch_boolean(aligned([solid.manifold for solid in solids]), OpType.Add)
+    return Solid(made, labels, lambda: tuple(piece for solid in solids for piece in solid.pieces))
+
+
+def hull(*solids: Solid) -> Solid:
+    """The convex hull of all of them, as one part without labels. Raises ValueError when there is none."""
+    if not solids:
+        raise ValueError("hull: there is nothing to wrap")
+    return Solid(Manifold.batch_hull([solid.manifold for solid in solids]))
+
+
+def solid_of(points: Floats, faces: Ints) -> Solid:
+    """The solid in a closed surface, whichever way it is wound. Raises ValueError when it is not closed."""
+    corners = points[faces] - points.mean(axis=0)
+    if np.einsum("fd,fd->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) < 0.0:
+        faces = faces[:, ::-1]
+    mesh = Mesh64(np.ascontiguousarray(points), np.ascontiguousarray(faces, dtype=np.uint64))
+    return Solid(Manifold(mesh)).checked()
+
+
+def labelled(points: Floats, faces: Ints, owners: Ints, labels: Sequence[str]) -> Solid:
+    """The solid in a closed surface wound outwards, face i (of F, 3) bearing ``labels[owners[i]]``."""
+    first = Manifold.reserve_ids(len(labels))
+    originals = range(first, first + len(labels))
+    manifold = manifold_of(points, faces, owners, originals)
+    return Solid(manifold, dict(zip(originals, labels, strict=True))).checked()
+
+
+def _unit(function: str, name: str) -> tuple[float, float, float]:
+    index = arguments.axis(function, name)
+    return float(index == 0), float(index == 1), float(index == 2)

@@ -1,0 +1,223 @@
+"""A procedure: the author's function, whose signature is its parameter space; and loading one from a file."""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+import inspect
+import linecache
+import sys
+import traceback
+import typing
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Annotated, Any, Literal, get_args, get_origin
+
+from shapewright.parameters import Binary, Choice, Integer, Parameter, ParameterSpace, Range, Scalar, When
+from shapewright.shapes import Shape
+from shapewright.shapes.conversion import as_shape
+
+_KINDS = (
+    "Annotated[float, Range(low, high)] for a scalar, Annotated[int, Range(low, high)] for an integer, "
+    'bool for a binary, Literal["a", "b"] for a choice'
+)
+
+
+class ProcedureError(Exception):
+    """The author's file or function cannot be used; the message says where and what to do."""
+
+
+class Infeasible(Exception):
+    """Raised by a procedure for parameters that have no shape: ``raise Infeasible("the shelves do not fit")``."""
+
+
+class Procedure:
+    """A function from parameters to a shape, with the parameter space that its signature spells.
+
+    space: its ParameterSpace. name: the function's name. path: the author's file, if it was loaded from one.
+    """
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        functools.update_wrapper(self, function)
+        self.function = function
+        self.name = function.__name__
+        self.space = _space(function)
+        self.path: Path | None = None
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Shape:
+        """Build the shape for these parameters; those left out are at their defaults.
+
+        Values outside a Range are the caller's own risk: the function is called with what it is given.
+        Raises Infeasible, ProcedureError when the function returns no shape, and whatever the function raises.
+        """
+        result = self.function(*args, **kwargs)
+        try:
+            return as_shape(result)
+        except (TypeError, ValueError) as error:
+            raise ProcedureError(f"{self.where}: {error}") from error
+
+    def random(self, seed: int = 0) -> Shape:
+        """A shape at random parameters; the next ones in turn while these are infeasible."""
+        for parameters in self.space.sample(100, seed=seed):
+            try:
+                return self(**parameters)
+            except Infeasible:
+                continue
+        raise ProcedureError(f"{self.where}: 100 random parameter vectors were all infeasible")
+
+    @property
+    def where(self) -> str:
+        code = self.function.__code__
+        return f"{code.co_filename}:{code.co_firstlineno}, {self.name}()"
+
+    @property
+    def source(self) -> str:
+        """The text of the author's file, or of the function alone when there is no file; empty if neither is known."""
+        try:
+            return self.path.read_text() if self.path else inspect.getsource(self.function)
+        except (OSError, TypeError):
+            return ""
+
+    def __repr__(self) -> str:
+        return f"Procedure({self.name}: {', '.join(self.space.names)})"
+
+
+def procedure(function: Callable[..., Any]) -> Procedure:
+    """Make a function a procedure. Raises ProcedureError when its signature is no parameter space."""
+    return Procedure(function)
+
+
+def load_procedure(path: str | Path) -> Procedure:
+    """The one procedure of a Python file, in any folder, with its own imports; ``file.py:name`` picks one of several.
+
+    Raises ProcedureError, pointing at the author's line, when the file is missing, fails, or has not one procedure.
+    """
+    path, name = _split(path)
+    found = {
+        value.name: value
+        for value in vars(_execute(path)).values()
+        if isinstance(value, Procedure) and Path(value.function.__code__.co_filename) == path
+    }
+    if not found:
+        raise ProcedureError(f"{path}: no procedure in this file; write @procedure above the function that builds")
+    if name is None and len(found) > 1:
+        raise ProcedureError(f"{path}: several procedures ({', '.join(found)}); say which: {path}:{next(iter(found))}")
+    if name is not None and name not in found:
+        raise ProcedureError(f"{path}: no procedure {name!r} in this file; there is {', '.join(found)}")
+    chosen = found[name or next(iter(found))]
+    chosen.path = path
+    return chosen
+
+
+def author_line(error: BaseException, path: Path | None) -> str:
+    """Where in the author's files an error arose, and what it says: ``file.py:12: ValueError: ... (the line)``."""
+    frames = traceback.extract_tb(error.__traceback__)
+    theirs = [frame for frame in frames if path is None or Path(frame.filename).is_relative_to(path.parent)]
+    own = [frame for frame in theirs if not Path(frame.filename).is_relative_to(Path(__file__).parents[1])]
+    what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    if not own:
+        return what
+    text = f"  ({own[-1].line})" if own[-1].line else ""
+    return f"{own[-1].filename}:{own[-1].lineno}: {what}{text}"
+
+
+def _split(path: str | Path) -> tuple[Path, str | None]:
+    text = str(path)
+    file, colon, name = text.rpartition(":")
+    if colon and file.endswith(".py"):
+        text = file
+    resolved = Path(text).expanduser().resolve()
+    if resolved.is_dir():
+        raise ProcedureError(f"{resolved}: this is a folder; name the Python file of the procedure")
+    if not resolved.is_file():
+        raise ProcedureError(f"{resolved}: no such file")
+    return resolved, name if colon and file.endswith(".py") else None
+
+
+def _execute(path: Path) -> ModuleType:
+    spec = importlib.util.spec_from_loader(f"shapewright_author_{path.stem}", loader=None, origin=str(path))
+    assert spec is not None
+    module = importlib.util.module_from_spec(spec)
+    module.__file__ = str(path)
+    folder = str(path.parent)
+    before = set(sys.modules)
+    sys.modules[spec.name] = module
+    sys.path.insert(0, folder)
+    linecache.checkcache(str(path))
+    try:
+        exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
+    except ProcedureError:
+        raise
+    except SyntaxError as error:
+        where = f"{error.filename or path}:{error.lineno}"
+        raise ProcedureError(f"{where}: {error.msg}  ({(error.text or '').strip()})") from error
+    except Exception as error:
+        raise ProcedureError(author_line(error, path)) from error
+    except SystemExit as error:
+        raise ProcedureError(f"{path}: the file ended the program (sys.exit) while it was read") from error
+    finally:
+        sys.path.remove(folder)
+        if folder not in sys.path:
+            sys.path.append(folder)
+        _forget_siblings(path.parent, before)
+    return module
+
+
+def _forget_siblings(folder: Path, before: set[str]) -> None:
+    """Drop the author's own helper modules, so that another folder's of the same name, or an edit, is read anew."""
+    for name in set(sys.modules) - before:
+        file = getattr(sys.modules[name], "__file__", None)
+        if file and Path(file).is_relative_to(folder) and "site-packages" not in file:
+            del sys.modules[name]
+
+
+def _space(function: Callable[..., Any]) -> ParameterSpace:
+    code = function.__code__
+    where = f"{code.co_filename}:{code.co_firstlineno}, {function.__name__}()"
+    try:
+        hints = typing.get_type_hints(function, include_extras=True)
+    except (NameError, TypeError) as error:
+        raise ProcedureError(f"{where}: an annotation cannot be read: {error}") from error
+    signature = inspect.signature(function).parameters.values()
+    if not signature:
+        raise ProcedureError(f"{where}: it has no parameters; give it some: {_KINDS}")
+    try:
+        return ParameterSpace(tuple(_parameter(item, hints.get(item.name)) for item in signature))
+    except ValueError as error:
+        raise ProcedureError(f"{where}: {error}") from error
+
+
+def _parameter(item: inspect.Parameter, hint: Any) -> Parameter:
+    name, default = item.name, item.default
+    if item.kind in (item.VAR_POSITIONAL, item.VAR_KEYWORD):
+        raise ValueError(f"parameter {name!r}: * and ** parameters have no space; name each one")
+    if hint is None:
+        raise ValueError(f"parameter {name!r} has no annotation; use {_KINDS}")
+    kind, extras = (get_args(hint)[0], get_args(hint)[1:]) if get_origin(hint) is Annotated else (hint, ())
+    limits = next((extra for extra in extras if isinstance(extra, Range)), None)
+    when = next((extra.condition for extra in extras if isinstance(extra, When)), limits.when if limits else None)
+    given = default is not item.empty
+    if kind is bool:
+        return Binary(name, default if given else False, when)
+    if get_origin(kind) is Literal:
+        options = get_args(kind)
+        return Choice(name, options, default if given else options[0], when)
+    if kind in (int, float) and limits is None:
+        raise ValueError(f"parameter {name!r} needs a Range: Annotated[{kind.__name__}, Range(low, high)]")
+    if kind is int and limits is not None:
+        if limits.steps is not None:
+            raise ValueError(f"parameter {name!r}: an integer takes every value of its Range; leave steps out")
+        low, high = int(limits.low), int(limits.high)
+        if (low, high) != (limits.low, limits.high):
+            raise ValueError(f"parameter {name!r}: Range({limits.low}, {limits.high}) of an integer needs whole ends")
+        return Integer(name, low, high, default if given else low, when)
+    if kind is float and limits is not None:
+        steps = limits.steps if isinstance(limits.steps, int | None) else tuple(float(step) for step in limits.steps)
+        middle = (limits.low + limits.high) / 2
+        return Scalar(name, float(limits.low), float(limits.high), float(default) if given else middle, steps, when)
+    raise ValueError(f"parameter {name!r}: the annotation {_spelling(kind)} is not supported; use {_KINDS}")
+
+
+def _spelling(kind: Any) -> str:
+    return kind.__name__ if isinstance(kind, type) else str(kind)

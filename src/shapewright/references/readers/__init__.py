@@ -1,0 +1,1 @@
+"""Readers of files: the triangles or the drawing that each holds."""

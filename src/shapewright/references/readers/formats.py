@@ -1,0 +1,119 @@
+"""One file of a collection, read into the triangles or the drawing that it holds, in its own units and axes."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.obj import read_obj
+from shapewright.references.readers.off import read_off
+from shapewright.references.readers.ply import read_ply
+from shapewright.references.readers.png import read_png
+from shapewright.references.readers.polygons import Polygons, check_indices, triangulate
+from shapewright.references.readers.svg import read_svg
+from shapewright.shapes import Drawing, Floats, Ints, Mesh, Shape
+
+_POLYGONS: dict[str, Callable[[bytes], Polygons]] = {".obj": read_obj, ".off": read_off, ".ply": read_ply}
+_SCENES = (".3mf", ".glb", ".gltf", ".stl")
+_DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {".png": read_png, ".svg": read_svg}
+MESHES = (*_POLYGONS, *_SCENES)
+EXTENSIONS = tuple(sorted((*MESHES, *_DRAWINGS)))
+
+# trimesh would read zeros or whole numbers in place of the coordinates.
+_COMPRESSIONS = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"}
+# Triangles that all cover less than this share of the squared extent show in no picture.
+_LEAST_AREA = 1e-12
+
+
+def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
+    """The triangles of a file in one mesh, or its drawing, and notes on what of it was left out.
+
+    Polygons are triangulated, scenes flattened; materials and textures are not looked at. Triangles stay as they are:
+    inward, doubled, without thickness. Left out are vertices that no triangle uses and, with a note, triangles with a
+    corner that is not finite. Raises UnreadableError, with the reason, where nothing that could be seen remains.
+    """
+    kind = path.suffix.lower()
+    if kind not in EXTENSIONS:
+        raise UnreadableError(f"not a kind of file that is read ({' '.join(EXTENSIONS)})")
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise UnreadableError(str(error.strerror).lower()) from error
+    if not data:
+        raise UnreadableError("the file is empty")
+    if data.startswith(b"version https://git-lfs"):
+        raise UnreadableError("a pointer of Git LFS, not the file itself; fetch it with `git lfs pull`")
+    try:
+        if kind in _DRAWINGS:
+            return _DRAWINGS[kind](data)
+        vertices, faces = _read_polygons(kind, data) if kind in _POLYGONS else _read_scene(path, kind, data)
+    except UnreadableError:
+        raise
+    except FileNotFoundError as error:
+        raise UnreadableError(f"it needs {error.filename or error}, which is missing") from error
+    except Exception as error:  # a broken file can make a parser fail in any way
+        raise UnreadableError(f"broken: {type(error).__name__}: {error}") from error
+    return sound(vertices, faces)
+
+
+def sound(vertices: Floats, faces: Ints) -> tuple[Mesh, tuple[str, ...]]:
+    """Triangles that can be seen and measured, with the notes of ``read``; raises UnreadableError as it does."""
+    if not len(faces):
+        raise UnreadableError("no triangles, only points or lines" if len(vertices) else "it holds no triangles")
+    check_indices(faces, len(vertices))
+    finite = np.asarray(np.isfinite(vertices).all(axis=1))[faces].all(axis=1)
+    if not finite.any():
+        raise UnreadableError("no triangle has finite corners: all use NaN or infinity")
+    used = np.zeros(len(vertices), dtype=bool)
+    used[faces[finite]] = True
+    mesh = Mesh(vertices[used], (np.cumsum(used) - 1)[faces[finite]])
+    with np.errstate(over="ignore"):
+        size = float(np.ptp(mesh.vertices, axis=0).max())
+    if not np.finfo(np.float64).tiny < size < np.inf:
+        raise UnreadableError("all its triangles lie at one point" if size < 1.0 else "too large to measure")
+    edges = np.diff(mesh.triangles / size, axis=1)
+    if np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).max() < _LEAST_AREA:
+        raise UnreadableError("its triangles have no area: all are lines or points")
+    lost = len(faces) - len(mesh.faces)
+    return mesh, (f"{lost} of {len(faces)} triangles left out: a corner is not finite",) if lost else ()
+
+
+def _read_polygons(kind: str, data: bytes) -> tuple[Floats, Ints]:
+    polygons = _POLYGONS[kind](data)
+    return polygons.vertices, triangulate(polygons)
+
+
+def _read_scene(path: Path, kind: str, data: bytes) -> tuple[Floats, Ints]:
+    """The triangles of every mesh in a scene, where the scene places them; (0, 3) faces where it has none."""
+    if kind in (".glb", ".gltf"):
+        _refuse_compression(data)
+    import trimesh
+
+    scene = trimesh.load_scene(
+        io.BytesIO(data),
+        file_type=kind[1:],
+        resolver=trimesh.resolvers.FilePathResolver(str(path)),
+        process=False,
+        skip_materials=True,
+    )
+    vertices, faces, start = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)], 0
+    for node in scene.graph.nodes_geometry:
+        matrix, name = scene.graph[node]
+        geometry = scene.geometry[name]
+        vertices.append(np.asarray(geometry.vertices, dtype=np.float64) @ matrix[:3, :3].T + matrix[:3, 3])
+        if isinstance(geometry, trimesh.Trimesh):
+            faces.append(np.asarray(geometry.faces, dtype=np.int64) + start)
+        start += len(geometry.vertices)
+    return np.concatenate(vertices), np.concatenate(faces)
+
+
+def _refuse_compression(data: bytes) -> None:
+    header = data[20 : 20 + int.from_bytes(data[12:16], "little")] if data.startswith(b"glTF") else data
+    compressions = _COMPRESSIONS.intersection(json.loads(header).get("extensionsRequired", ()))
+    if compressions:
+        raise UnreadableError(f"compressed with {', '.join(sorted(compressions))}; save it without compression")

@@ -1,0 +1,273 @@
+"""The report of a recorded iteration: one static HTML file that needs nothing but itself."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import math
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from PIL import Image
+
+from shapewright.report.explained import badges, outlines, read_explanation
+from shapewright.runs.changes import compare
+
+FORMAT = 1
+# The paper's colours: green for a perfect replica, yellow at the threshold, red from FAR thresholds on, unless the
+# record's metric says where.
+GREEN, YELLOW, RED = (62, 166, 100), (247, 205, 70), (222, 74, 62)
+FAR = 2.5
+# Thumbnails are tinted by one of this many filters, not by a colour each.
+TINTS = 25
+
+
+def write_report(folder: Path, previous: Path | None = None, explanation: Path | None = None) -> Path:
+    """Write ``folder/report.html`` from ``folder/iteration.json`` and ``folder/thumbnails``; return its path.
+
+    previous: the folder of an earlier iteration to compare with. explanation: the folder that holds
+    ``explanation.json``, where that is another one; without such a file nothing is explained. Pictures are put into
+    the page, so that the file can be moved or sent; only its links to replicas (GLB) point into the folder. Thumbnails
+    that are missing are left blank. Raises FileNotFoundError for a folder without a record, ValueError for a record of
+    another format.
+    """
+    record = _read(folder)
+    earlier = _read(previous) if previous else None
+    environment = Environment(
+        loader=PackageLoader("shapewright.report", "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {"number": _number, "duration": _duration, "value": _value}
+    page = environment.get_template("report.html.jinja").render(
+        run=folder.resolve().name,
+        before=previous.resolve().name if previous else None,
+        comparison=compare(record, earlier) if earlier else None,
+        previous=earlier,
+        **_contents(record, folder, read_explanation(explanation or folder)),
+    )
+    path = folder / "report.html"
+    partial = path.with_suffix(".part")
+    partial.write_text(page, encoding="utf-8")
+    partial.replace(path)
+    return path
+
+
+def colour(distance: float | None, threshold: float, far: float = FAR) -> str:
+    """#rrggbb of a distance: green at 0, yellow at the threshold, red at ``far`` thresholds and on; grey for None."""
+    if distance is None:
+        return "#9a9a9a"
+    near = distance <= threshold
+    start, end = (GREEN, YELLOW) if near else (YELLOW, RED)
+    part = distance / threshold if near else min(1.0, (distance / threshold - 1.0) / (far - 1.0))
+    return "#" + "".join(f"{round(a + (b - a) * part):02x}" for a, b in zip(start, end, strict=True))
+
+
+def _read(folder: Path) -> dict[str, Any]:
+    path = folder / "iteration.json"
+    if not path.is_file():
+        raise FileNotFoundError(f"{folder} is not the folder of an iteration: it holds no iteration.json")
+    # A number that is not finite has no place in JSON: browsers refuse it. It is shown as unknown.
+    record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"), parse_constant=lambda _: None)
+    if record.get("format") != FORMAT:
+        raise ValueError(f"{path} has format {record.get('format')}; this version of shapewright reads format {FORMAT}")
+    return record
+
+
+def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] | None) -> dict[str, Any]:
+    """What the template shows. A pair is known by its index in the order of the page."""
+    threshold = record["threshold"]
+    metric = record.get("metric") or {"far": FAR * threshold, "criterion": f"distance at most {_value(threshold)}"}
+    far = metric["far"] / threshold
+    references = {reference["name"]: reference for reference in record["references"]}
+
+    def by_distance(names: list[str]) -> list[str]:
+        return sorted(names, key=lambda name: (references[name]["distance"] is None, references[name]["distance"] or 0))
+
+    groups = [
+        [group["representative"], *by_distance([name for name in group["members"] if name != group["representative"]])]
+        for group in record["groups"]
+    ]
+    grouped = {name for group in groups for name in group}
+    compatible = by_distance([name for name, reference in references.items() if reference["compatible"]])
+    ungrouped = by_distance([name for name in references if name not in grouped and not references[name]["compatible"]])
+    order = [*(name for group in groups for name in group), *ungrouped, *compatible]
+    index = {name: i for i, name in enumerate(order)}
+    told = explanation["references"] if explanation else {}
+    parameters = record["procedure"]["parameters"]
+    pairs = [_pair(references[name], folder, threshold, far, parameters, told.get(name)) for name in order]
+    return {
+        "record": record,
+        "created": _date(record["created"]),
+        "pairs": pairs,
+        "explanation": explanation,
+        "index": index,
+        "groups": [[index[name] for name in group] for group in groups],
+        "ungrouped": [index[name] for name in ungrouped],
+        "no_replica": all(references[name]["distance"] is None for name in ungrouped),
+        "compatible": [index[name] for name in compatible],
+        "strip": [index[name] for name in by_distance(list(references))],
+        "criterion": metric["criterion"],
+        "mean_iou": _mean([references[name]["iou"] for name in compatible]),
+        "highest": max([min(1.5, far) * threshold, *(pair["distance"] or 0.0 for pair in pairs)]),
+        "frame": _frame([picture for pair in pairs for picture in pair["pictures"]]),
+        "far": far,
+        "tints": [colour(far * threshold * i / (TINTS - 1), threshold, far) for i in range(TINTS)],
+        "at_limit": {
+            parameter["name"]: sum(parameter["name"] in reference["at_limit"] for reference in references.values())
+            for parameter in record["procedure"]["parameters"]
+        },
+        "curves": _curves(record["metrics"]["curve"]),
+        "cameras": _cameras(record["metrics"].get("cameras")),
+        "data": {"parameters": [_parameter(p) for p in record["procedure"]["parameters"]], "pairs": _details(pairs)},
+    }
+
+
+def _pair(
+    reference: dict[str, Any],
+    folder: Path,
+    threshold: float,
+    far: float,
+    parameters: list[dict[str, Any]],
+    told: dict[str, Any] | None,
+) -> dict[str, Any]:
+    distance = reference["distance"]
+    files = [folder / "thumbnails" / f"{reference['slug']}.{kind}.png" for kind in ("reference", "replica")]
+    pictures = [file.read_bytes() if file.is_file() else None for file in files]
+    values = reference["parameters"] or {}
+    return {
+        **reference,
+        "causes": badges(told) if told else [],
+        "outlines": outlines(told) if told and not reference["compatible"] else ([], []),
+        "colour": colour(distance, threshold, far),
+        "tint": None if distance is None else round(min(distance / (far * threshold), 1.0) * (TINTS - 1)),
+        "pictures": pictures,
+        "sources": [p and "data:image/png;base64," + base64.b64encode(p).decode() for p in pictures],
+        "link": reference["replica"] and quote(reference["replica"]),
+        "values": [
+            [
+                _value(values[p["name"]]),
+                _place(p, values[p["name"]]),
+                p["name"] in reference["active"],
+                p["name"] in reference["at_limit"],
+            ]
+            if p["name"] in values
+            else None
+            for p in parameters
+        ],
+    }
+
+
+def _details(pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """What the page's script shows of each pair when it is opened."""
+    kept = ("name", "causes", "colour", "tint", "compatible", "error", "path", "link", "triangles", "values")
+    return [
+        {key: pair[key] for key in kept}
+        | {"distance": _number(pair["distance"]), "iou": _number(pair["iou"]), "chamfer": _number(pair["chamfer"], 4)}
+        for pair in pairs
+    ]
+
+
+def _parameter(parameter: dict[str, Any]) -> dict[str, Any]:
+    options = [False, True] if parameter["kind"] == "binary" else parameter["options"]
+    ends = None if options else [_value(parameter["low"]), _value(parameter["high"])]
+    return {"name": parameter["name"], "options": options and [_value(option) for option in options], "ends": ends}
+
+
+def _place(parameter: dict[str, Any], value: Any) -> float | None:
+    """Where a value stands: its part of the range, or its index among the options."""
+    if parameter["kind"] == "binary":
+        return float(bool(value))
+    if parameter["options"]:
+        return parameter["options"].index(value) if value in parameter["options"] else None
+    span = parameter["high"] - parameter["low"]
+    return round(min(max((value - parameter["low"]) / span, 0.0), 1.0), 3) if span else 0.5
+
+
+def _frame(pictures: list[bytes | None]) -> dict[str, float]:
+    """The part of the thumbnails that any shape covers, as a box of fractions; pages show no more than that."""
+    boxes = []
+    for picture in pictures:
+        if picture:
+            image = Image.open(io.BytesIO(picture))
+            box = image.getchannel("A").getbbox() if "A" in image.getbands() else None
+            boxes.append([edge / image.width for edge in box or (0, 0, image.width, image.height)])
+    if not boxes:
+        return {"left": 0.0, "top": 0.0, "width": 1.0, "height": 1.0}
+    margin = 0.03
+    left, top = (max(0.0, min(box[i] for box in boxes) - margin) for i in (0, 1))
+    right, bottom = (min(1.0, max(box[i] for box in boxes) + margin) for i in (2, 3))
+    return {"left": left, "top": top, "width": right - left, "height": bottom - top}
+
+
+def _curves(curve: list[dict[str, Any]]) -> dict[str, Any] | None:
+    """Training and validation loss as paths in a box of 100 x 100, 0 at the bottom."""
+    lines = {
+        key: [(row["epoch"], row[key]) for row in curve if row.get(key) is not None] for key in ("train", "validation")
+    }
+    points = [point for line in lines.values() for point in line]
+    if len({epoch for epoch, _ in points}) < 2:
+        return None
+    (first, last), highest = (min(points)[0], max(points)[0]), max(loss for _, loss in points) or 1.0
+    paths = {
+        key: "M" + "L".join(f"{(e - first) / (last - first) * 100:.2f} {100 - y / highest * 100:.2f}" for e, y in line)
+        for key, line in lines.items()
+        if line
+    }
+    return {
+        "paths": paths,
+        "ends": {key: line[-1][1] for key, line in lines.items() if line},
+        "first": first,
+        "last": last,
+        "highest": highest,
+    }
+
+
+def _mean(numbers: list[float | None]) -> float | None:
+    known = [number for number in numbers if number is not None]
+    return sum(known) / len(known) if known else None
+
+
+def _cameras(places: dict[str, Any] | None) -> list[dict[str, Any]]:
+    """Where each camera stood before and after training: as seen from above, the front at the bottom, and in words."""
+    if not places or "after" not in places:
+        return []
+
+    def above(place: list[float]) -> tuple[float, float]:
+        azimuth, elevation, distance = math.radians(place[0]), math.radians(place[1]), place[2]
+        return distance * math.cos(elevation) * math.sin(azimuth), distance * math.cos(elevation) * math.cos(azimuth)
+
+    return [
+        {"from": above(before), "to": above(after), "before": before, "after": after, "moved": before != after}
+        for before, after in zip(places["before"], places["after"], strict=True)
+    ]
+
+
+def _date(text: str) -> str:
+    date = datetime.fromisoformat(text)
+    return f"{date.day} {date:%B %Y, %H:%M} {date.tzname() or ''}".strip()
+
+
+def _number(number: float | None, digits: int = 3) -> str:
+    return "–" if number is None else f"{number:.{digits}f}"
+
+
+def _value(value: Any) -> str:
+    """A parameter's value or a setting, as people write it."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.4g}" if abs(value) < 1e4 else f"{value:.0f}"
+    return "–" if value is None else str(value)
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 100.0:
+        return f"{seconds:.1f} s"
+    return f"{int(seconds // 60)} min {int(seconds % 60)} s"

@@ -1,0 +1,1 @@
+"""Runs: a finished turn of the loop, and its folder on disk."""

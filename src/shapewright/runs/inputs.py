@@ -1,0 +1,59 @@
+"""A run's procedure and references, loaded again from where the run had them."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from shapewright.procedures import Procedure, ProcedureError, load_procedure
+from shapewright.references import Collection, CollectionError
+from shapewright.runs.folder import RunError
+from shapewright.runs.iteration import Iteration
+
+_SHOWN = 3
+
+
+def procedure_of(run: Path, iteration: Iteration) -> Procedure:
+    """The procedure that a run was made with: the author's file while it is unchanged, the run's copy of it after that.
+
+    Raises RunError when neither can be loaded.
+    """
+    name, path = iteration.procedure["name"], iteration.procedure["path"]
+    if path and Path(path).is_file() and _digest(Path(path)) == iteration.procedure["digest"]:
+        return load_procedure(f"{path}:{name}")
+    try:
+        return load_procedure(f"{run / 'procedure.py'}:{name}")
+    except ProcedureError as error:
+        raise RunError(
+            f"{run}: the procedure has changed since this run, and the run's copy of its text cannot be loaded: "
+            f"{error}\nFit again with: shapewright fit PROCEDURE REFERENCES --explain"
+        ) from error
+
+
+def references_of(run: Path, iteration: Iteration, moved_to: str | None = None) -> Collection:
+    """The collection that a run was made with. moved_to: where it is now, if it was moved.
+
+    Raises RunError when it is not where it was, or lacks references of the run.
+    """
+    record = iteration.collection
+    origins = [moved_to] if moved_to else record.get("origins") or [str(record["source"])]
+    again = "say where it is now with --references FOLDER"
+    if not moved_to and record["source"] == "memory":
+        raise RunError(f"{run}: its references were made in memory; {again}, or call shapewright.explain from Python")
+    try:
+        collection = Collection.load(origins, up=record.get("up", "y"), front=record.get("front"))
+    except CollectionError as error:
+        raise RunError(f"{run}: its collection cannot be loaded: {error}\nIf it was moved, {again}") from error
+    lost = [name for name in iteration.names if name not in collection]
+    if lost:
+        names = ", ".join(lost[:_SHOWN]) + (", ..." if len(lost) > _SHOWN else "")
+        where = ", ".join(origins)
+        raise RunError(
+            f"{run}: {len(lost)} of its {len(iteration)} references are not in {where} any more ({names}); "
+            f"put them back, or {again}"
+        )
+    return collection
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_text().encode()).hexdigest()[:16]

@@ -1,0 +1,220 @@
+"""One turn of the loop, finished: what was found for every reference; written to disk and read back."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from shapewright.comparison.grouping import Group
+from shapewright.judging.metric import Metric, light_field
+from shapewright.prediction.predictor import Predictor
+from shapewright.references.readers.svg import read_svg
+from shapewright.rendering.thumbnails import thumbnails
+from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
+from shapewright.runs.result import Result, file_names, from_record, replica_path, to_record
+from shapewright.settings import Settings
+from shapewright.shapes import Mesh, Shape, concatenate
+from shapewright.shapes.files import NO_LABEL, encode
+
+Pictures = Mapping[str, tuple[bytes, bytes | None]]
+
+
+@dataclass(frozen=True, eq=False)
+class Iteration:
+    """The results of one turn of the loop: ``it["name"]``, ``it.compatible``, ``it.groups``, ``it.seconds``.
+
+    metric: by which references are compatible. procedure, collection, metrics, versions: records as the run's JSON
+    holds them. source: text of the procedure.
+    """
+
+    results: tuple[Result, ...]
+    metric: Metric
+    groups: tuple[Group, ...]
+    settings: Settings
+    seconds: Mapping[str, float]
+    procedure: Mapping[str, Any]
+    source: str
+    collection: Mapping[str, Any]
+    metrics: Mapping[str, Any]
+    versions: Mapping[str, str]
+    created: str
+    pictures: Pictures = field(default_factory=dict, repr=False)
+    predictor: Predictor | None = field(default=None, repr=False)
+
+    @cached_property
+    def _by_name(self) -> dict[str, Result]:
+        return {result.name: result for result in self.results}
+
+    def __getitem__(self, name: str) -> Result:
+        if name not in self._by_name:
+            raise KeyError(f"no reference {name!r} in this iteration")
+        return self._by_name[name]
+
+    def __iter__(self) -> Iterator[Result]:
+        return iter(self.results)
+
+    def __len__(self) -> int:
+        return len(self.results)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(self._by_name)
+
+    @property
+    def compatible(self) -> tuple[str, ...]:
+        """Names of the references that the procedure replicates."""
+        return tuple(result.name for result in self.results if result.compatible)
+
+    @property
+    def incompatible(self) -> tuple[str, ...]:
+        return tuple(result.name for result in self.results if not result.compatible)
+
+    @property
+    def mean_iou(self) -> float:
+        """Of the compatible references with their replicas; NaN where there are none."""
+        found = [result.iou for result in self.results if result.compatible]
+        return float(np.mean(found)) if found else math.nan
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """Everything but meshes and pictures, as plain values for JSON; NaN becomes null."""
+        slugs = file_names(self.names)
+        return {
+            "format": FORMAT,
+            "created": self.created,
+            "version": self.versions["shapewright"],
+            "versions": dict(self.versions),
+            "seed": self.settings.seed,
+            "settings": self.settings.record(),
+            "procedure": dict(self.procedure),
+            "collection": dict(self.collection),
+            "threshold": self.metric.threshold,
+            "metric": asdict(self.metric),
+            "references": [to_record(result, slugs[result.name]) for result in self.results],
+            "groups": [{"representative": g.representative, "members": list(g.members)} for g in self.groups],
+            "metrics": dict(self.metrics),
+            "seconds": dict(self.seconds),
+        }
+
+    def save(
+        self,
+        folder: str | Path,
+        also: Callable[[Path], object] | None = None,
+    ) -> Path:
+        """Write the run to a folder that does not exist yet, whole or not at all, and return it.
+
+        also: writes more into the folder before it takes its place, such as an explanation or the report. Raises
+        RunError when the folder holds something already or cannot be written; then nothing is left behind.
+        """
+        folder = Path(folder).expanduser().absolute()
+        with new_folder(folder) as partial:
+            self._write(partial)
+            if also:
+                also(partial)
+        return folder
+
+    @classmethod
+    def load(cls, folder: str | Path) -> Iteration:
+        """Read a run back, without the references' meshes. Raises RunError when the folder holds no whole run."""
+        folder = Path(folder).expanduser()
+        record = read_record(folder)
+        settings = Settings.from_record(record["settings"])
+        groups = tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"])
+        return cls(
+            results=tuple(from_record(entry, _read_replica(folder, entry)) for entry in record["references"]),
+            metric=Metric(**record["metric"]) if "metric" in record else light_field(settings.threshold),
+            groups=groups,
+            settings=settings,
+            seconds=record["seconds"],
+            procedure=record["procedure"],
+            source=(folder / "procedure.py").read_text(encoding="utf-8"),
+            collection=record["collection"],
+            metrics=record["metrics"],
+            versions=record["versions"],
+            created=record["created"],
+            pictures={entry["name"]: _read_pictures(folder, entry["slug"]) for entry in record["references"]},
+            predictor=Predictor.load(folder / "predictor.pt") if (folder / "predictor.pt").exists() else None,
+        )
+
+    def _write(self, folder: Path) -> None:
+        (folder / RECORD).write_text(json.dumps(self.record, indent=1, allow_nan=False), encoding="utf-8")
+        (folder / "procedure.py").write_text(self.source, encoding="utf-8")
+        found = {result.name: result.parameters for result in self.results}
+        (folder / "parameters.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
+        self._write_csv(folder / "parameters.csv")
+        if self.predictor:
+            self.predictor.save(folder / "predictor.pt")
+        (folder / "replicas").mkdir()
+        (folder / "thumbnails").mkdir()
+        pictures = self.pictures or draw_pictures(self.results)
+        slugs = file_names(self.names)
+        for result in self.results:
+            slug = slugs[result.name]
+            if result.replica is not None and (path := replica_path(result.replica, slug)):
+                (folder / path).write_bytes(encode(result.replica, "glb", self._origin(result)))
+            for kind, picture in zip(("reference", "replica"), pictures[result.name], strict=True):
+                if picture is not None:
+                    (folder / "thumbnails" / f"{slug}.{kind}.png").write_bytes(picture)
+
+    def _origin(self, result: Result) -> dict[str, Any]:
+        """What a replica's file says of where it comes from."""
+        return {
+            "procedure": self.procedure.get("name", "shape"),
+            "parameters": result.parameters,
+            "reference": result.name,
+            "seed": self.settings.seed,
+            "shapewright": self.versions.get("shapewright", ""),
+        }
+
+    def _write_csv(self, path: Path) -> None:
+        names = [parameter["name"] for parameter in self.procedure["parameters"]]
+        with path.open("w", newline="", encoding="utf-8") as file:
+            table = csv.writer(file)
+            table.writerow(["reference", "compatible", "distance", "iou", "chamfer", "group", *names])
+            for result in self.results:
+                measures = ("" if math.isnan(m) else f"{m:.6f}" for m in (result.distance, result.iou, result.chamfer))
+                values = (result.parameters or {}).get
+                group = "" if result.group is None else result.group
+                table.writerow([result.name, result.compatible, *measures, group, *(values(n, "") for n in names)])
+
+
+def draw_pictures(results: Sequence[Result], threads: int | None = None) -> Pictures:
+    """Thumbnails (PNG) of every reference and replica, by name."""
+    references = thumbnails([r.reference for r in results if r.reference is not None], threads=threads)
+    replicas = iter(thumbnails([r.replica for r in results if r.replica is not None], threads=threads))
+    return {
+        result.name: (picture, next(replicas) if result.replica is not None else None)
+        for result, picture in zip(results, references, strict=True)
+    }
+
+
+def _read_pictures(folder: Path, slug: str) -> tuple[bytes, bytes | None]:
+    replica = folder / "thumbnails" / f"{slug}.replica.png"
+    return (folder / "thumbnails" / f"{slug}.reference.png").read_bytes(), (
+        replica.read_bytes() if replica.exists() else None
+    )
+
+
+def _read_replica(folder: Path, entry: Mapping[str, Any]) -> Shape | None:
+    import trimesh
+
+    if not entry["replica"]:
+        return None
+    if entry["replica"].endswith(".svg"):
+        return read_svg((folder / entry["replica"]).read_bytes())[0]
+    scene = trimesh.load_scene(folder / entry["replica"], process=False)
+    parts = {name: Mesh(part.vertices, part.faces) for name, part in scene.geometry.items()}
+    whole = concatenate([part if name in NO_LABEL else part.label(name) for name, part in parts.items()])
+    if len(parts) == 1:
+        return whole
+    # A file holds each part's vertices apart from the others'; equal ones are one again.
+    vertices, index = np.unique(whole.vertices, axis=0, return_inverse=True)
+    return replace(whole, vertices=vertices, faces=index.ravel()[whole.faces])

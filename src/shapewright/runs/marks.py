@@ -1,0 +1,135 @@
+"""Pairs that the author marked as the same or as different: the project's ``marks.json``, beside its runs.
+
+The file is a JSON list, in the order of marking, of objects
+
+    {"a": name, "b": name, "same": true | false, "run": "003", "measures": {"distance": 0.21, "iou": 0.8, "depth": 0.1}}
+
+where ``a`` is a reference and ``b`` the reference whose replica it was compared with, which is ``a`` itself where an
+author judges a reference and its own replica. ``run`` is the folder's name of the run that made the replica, and
+``measures`` is what that run measured between the two. Both may be left out, as may measures that are not known; then
+the run at hand says what they are. Other entries of an object are kept as they are.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from shapewright.runs.folder import RunError, previous_run, read_record
+
+MARKS = "marks.json"
+MEASURES = ("distance", "iou", "depth")
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A judged pair. measures: those of MEASURES that are known."""
+
+    name: str
+    same: bool
+    measures: Mapping[str, float]
+
+
+def marks_path(run: Path) -> Path:
+    """Where the marks of a run's project are: beside the folder ``runs``, or beside the run where it is not in one."""
+    run = run.absolute()
+    return (run.parent.parent if run.parent.name == "runs" else run.parent) / MARKS
+
+
+def mark(run: Path, name: str, same: bool) -> Path:
+    """Add a mark for a reference and its replica in a run, in the place of an earlier one; return the file's path.
+
+    Raises RunError for an unknown reference, one without a replica, and a file that cannot be read or written.
+    """
+    record = read_record(run)
+    found = {entry["name"]: entry for entry in record["references"]}
+    if name not in found:
+        raise RunError(f"{run}: no reference {name!r} in this run; its report lists them")
+    measures = _measures(found[name])
+    if "distance" not in measures:
+        raise RunError(f"{run}: {name} has no replica in this run, so there is no pair to mark")
+    path = marks_path(run)
+    entry = {"a": name, "b": name, "same": same, "run": run.absolute().name, "measures": measures}
+    others = [other for other in _read(path) if not _replaces(entry, other)]
+    _write(path, [*others, entry])
+    return path
+
+
+def pairs(project: Path) -> list[tuple[str, str, bool]]:
+    """What a project's folder holds: a, b, and whether they are the same, of a pair that was judged twice the last.
+
+    Raises RunError for a file that cannot be read.
+    """
+    judged = {(entry["a"], entry["b"]): bool(entry["same"]) for entry in _read(project / MARKS)}
+    return [(a, b, same) for (a, b), same in judged.items()]
+
+
+def replace_pairs(project: Path, wanted: Sequence[tuple[str, str, bool]], known: set[str], run: Path | None) -> None:
+    """Make the marks of known references these; a judgement that stays keeps all that is noted of it.
+
+    run: that the new ones are judged by, which notes what it measured. Raises RunError.
+    """
+    path = project / MARKS
+    old = {(a, b): same for a, b, same in pairs(project)}
+    new = {(a, b): same for a, b, same in wanted}
+    kept = [
+        entry
+        for entry in _read(path)
+        if not {entry["a"], entry["b"]} <= known or new.get((entry["a"], entry["b"])) == old[entry["a"], entry["b"]]
+    ]
+    found = {entry["name"]: entry for entry in read_record(run)["references"]} if run else {}
+    for (a, b), same in new.items():
+        if old.get((a, b)) != same:
+            noted = {"run": run.name, "measures": _measures(found[a])} if run and a == b and a in found else {}
+            kept.append({"a": a, "b": b, "same": same, **noted})
+    _write(path, kept)
+
+
+def read_marks(run: Path, measured: bool = True) -> list[Mark]:
+    """The marks of a run's project. measured: only those whose distance is known, from the file or from this run.
+
+    run: it need not exist yet; the newest run before it says what is not in the file then.
+    """
+    beside: dict[str, Mapping[str, Any]] = {}
+    source = run if (run / "iteration.json").exists() else previous_run(run)
+    if source:
+        beside = {entry["name"]: entry for entry in read_record(source)["references"]}
+    marks = []
+    for entry in _read(marks_path(run)):
+        of_run = _measures(beside[entry["a"]]) if entry["a"] == entry["b"] and entry["a"] in beside else {}
+        measures = {**of_run, **(entry.get("measures") or {})}
+        if "distance" in measures or not measured:
+            marks.append(Mark(entry["a"], bool(entry["same"]), measures))
+    return marks
+
+
+def _measures(entry: Mapping[str, Any]) -> dict[str, float]:
+    return {name: entry[name] for name in MEASURES if entry.get(name) is not None}
+
+
+def _replaces(new: Mapping[str, Any], old: Mapping[str, Any]) -> bool:
+    return (new["a"], new["b"]) == (old["a"], old["b"]) and old.get("run", new["run"]) == new["run"]
+
+
+def _read(path: Path) -> list[dict[str, Any]]:
+    try:
+        entries = json.loads(path.read_text(encoding="utf-8"))
+        return [{**entry, "a": str(entry["a"]), "b": str(entry["b"]), "same": entry["same"]} for entry in entries]
+    except FileNotFoundError:
+        return []
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RunError(f"{path}: these are no marks that can be read ({error}); mend the file or remove it") from error
+
+
+def _write(path: Path, entries: Sequence[Mapping[str, Any]]) -> None:
+    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        partial.write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
+        partial.replace(path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise RunError(f"{path}: the mark cannot be written: {error.strerror or error}") from error

@@ -1,0 +1,1 @@
+"""Searching for parameters on the procedure itself, by what still differs."""

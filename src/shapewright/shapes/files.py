@@ -1,0 +1,155 @@
+"""Shapes as files: meshes as GLB, PLY, OBJ, STL or OFF, drawings as SVG; with their labels, and where they come from.
+
+``extras`` are plain values for JSON that travel in the file: which procedure made the shape, at which parameters. GLB
+and STL hold coordinates in single precision, the others in double.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Iterator, Mapping
+from typing import Any, Literal, TypeAlias
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from shapewright.shapes.arrays import Ints
+from shapewright.shapes.drawing import Drawing
+from shapewright.shapes.mesh import Mesh
+from shapewright.shapes.shape import Shape
+
+Format: TypeAlias = Literal["glb", "ply", "obj", "stl", "off"]
+Extras: TypeAlias = Mapping[str, Any]
+
+_NAME = "shape"
+_REST = "unlabelled"
+NO_LABEL = (_NAME, _REST)
+"""Names in files of faces without a label."""
+
+
+def encode(shape: Shape, format: Format = "glb", extras: Extras | None = None) -> bytes:
+    """The bytes of a file: of a mesh in this format, of a drawing as SVG whatever the format."""
+    if isinstance(shape, Drawing):
+        return svg(shape, extras)
+    if format in ("stl", "off"):
+        import trimesh
+
+        exported = trimesh.Trimesh(shape.vertices, shape.faces, process=False).export(file_type=format)
+        return exported.encode() if isinstance(exported, str) else bytes(exported)
+    return {"glb": glb, "ply": ply, "obj": obj}[format](shape, extras)
+
+
+def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
+    """Binary glTF 2.0: one node per label, with vertices of its own, under a root node that holds the extras,
+    as the scene does."""
+    buffer = bytearray()
+    accessors: list[dict[str, Any]] = []
+    views: list[dict[str, Any]] = []
+    meshes: list[dict[str, Any]] = []
+    nodes: list[dict[str, Any]] = [{"name": _title(extras)}]
+    for name, faces in _parts(mesh):
+        used, corners = np.unique(faces, return_inverse=True)
+        positions = mesh.vertices[used].astype(np.float32)
+        arrays = (positions, corners.ravel().astype(np.uint16 if len(used) <= 0xFFFF else np.uint32))
+        meshes.append({"name": name, "primitives": [_primitive(len(accessors))]})
+        nodes.append({"name": name, "mesh": len(meshes) - 1})
+        for array, target in zip(arrays, (34962, 34963), strict=True):
+            data = array.tobytes()
+            views.append({"buffer": 0, "byteOffset": len(buffer), "byteLength": len(data), "target": target})
+            accessors.append(_accessor(len(views) - 1, array))
+            buffer += data + bytes(-len(data) % 4)
+    nodes[0]["children"] = list(range(1, len(nodes)))
+    known = {"extras": dict(extras)} if extras else {}
+    nodes[0] |= known
+    document = {
+        "asset": {"version": "2.0", "generator": "shapewright"},
+        "scene": 0,
+        "scenes": [{"nodes": [0], **known}],  # some readers keep the scene's extras, some the nodes'
+        "nodes": nodes,
+        "meshes": meshes,
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{"byteLength": len(buffer)}],
+    }
+    text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer), b"BIN\0") + buffer
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def ply(mesh: Mesh, extras: Extras | None = None) -> bytes:
+    """Binary PLY with a property ``label`` of every face: an index into the comments ``label 0 top``, or -1."""
+    comments = [f"comment label {i} {name}" for i, name in enumerate(mesh.label_names)]
+    if extras:
+        comments.append(f"comment extras {_json(extras)}")
+    header = [
+        "ply",
+        "format binary_little_endian 1.0",
+        *comments,
+        f"element vertex {len(mesh.vertices)}",
+        *(f"property double {axis}" for axis in "xyz"),
+        f"element face {len(mesh.faces)}",
+        "property list uchar int vertex_indices",
+        "property int label",
+        "end_header\n",
+    ]
+    rows = np.empty(len(mesh.faces), dtype=[("count", "u1"), ("corners", "<i4", 3), ("label", "<i4")])
+    rows["count"], rows["corners"], rows["label"] = 3, mesh.faces, _labels(mesh)
+    return "\n".join(header).encode() + mesh.vertices.astype("<f8").tobytes() + rows.tobytes()
+
+
+def obj(mesh: Mesh, extras: Extras | None = None) -> bytes:
+    """Wavefront OBJ with one group per label, the extras in a comment, coordinates to the last digit."""
+    lines = [f"# extras {_json(extras)}"] if extras else []
+    lines.append(f"o {_title(extras)}")
+    lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
+    for name, faces in _parts(mesh):
+        lines.append(f"g {'_'.join(name.split())}")
+        lines += [f"f {a} {b} {c}" for a, b, c in (faces + 1).tolist()]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def svg(drawing: Drawing, extras: Extras | None = None) -> bytes:
+    """SVG, black on white, the extras in its metadata."""
+    (left, low), (right, high) = drawing.bounds
+    margin = 0.02 * max(right - left, high - low)
+    box = f"{left - margin} {-high - margin} {right - left + 2 * margin} {high - low + 2 * margin}"
+    shape = drawing.geometry.svg(scale_factor=0.0, fill_color="black", opacity=1.0)
+    metadata = f"<metadata>{escape(_json(extras))}</metadata>" if extras else ""
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">{metadata}'
+    return f'{head}<g transform="scale(1 -1)">{shape}</g></svg>'.encode()
+
+
+def _parts(mesh: Mesh) -> Iterator[tuple[str, Ints]]:
+    """The faces of each label that has any; of a mesh without labels, all of them."""
+    if mesh.face_labels is None:
+        yield _NAME, mesh.faces
+        return
+    for i, name in (*enumerate(mesh.label_names), (-1, _REST)):
+        if (chosen := mesh.face_labels == i).any():
+            yield name, mesh.faces[chosen]
+
+
+def _labels(mesh: Mesh) -> Ints:
+    return np.full(len(mesh.faces), -1) if mesh.face_labels is None else mesh.face_labels
+
+
+def _primitive(accessor: int) -> dict[str, Any]:
+    return {"attributes": {"POSITION": accessor}, "indices": accessor + 1}
+
+
+def _accessor(view: int, array: np.ndarray[Any, Any]) -> dict[str, Any]:
+    kind = {"f4": 5126, "u2": 5123, "u4": 5125}[array.dtype.str[1:]]
+    if array.ndim == 1:
+        return {"bufferView": view, "componentType": kind, "count": len(array), "type": "SCALAR"}
+    limits = {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
+    return {"bufferView": view, "componentType": kind, "count": len(array), "type": "VEC3", **limits}
+
+
+def _title(extras: Extras | None) -> str:
+    return "_".join(str((extras or {}).get("procedure", _NAME)).split())
+
+
+def _json(extras: Extras) -> str:
+    return json.dumps(dict(extras), separators=(",", ":"), allow_nan=False)

@@ -1,0 +1,132 @@
+"""A triangle mesh in space, with labels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from shapewright.shapes.arrays import Floats, Ints, Transform
+
+if TYPE_CHECKING:
+    from shapewright.shapes.soundness import Soundness
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles in space; closed or soup alike.
+
+    vertices: (V, 3) float64, Y up, front towards +Z.
+    faces: (F, 3) int64, indices of vertices.
+    face_labels: (F,) int64, index into label_names, -1 for a face without label; None when nothing is labelled.
+    Raises ValueError for arrays of another form, vertices that are not finite, or faces that point at no vertex.
+    """
+
+    vertices: Floats
+    faces: Ints
+    face_labels: Ints | None = None
+    label_names: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "vertices", np.ascontiguousarray(self.vertices, dtype=np.float64))
+        object.__setattr__(self, "faces", np.ascontiguousarray(self.faces, dtype=np.int64))
+        if self.vertices.ndim != 2 or self.vertices.shape[1] != 3:
+            raise ValueError(f"vertices have the form {self.vertices.shape}, not (V, 3)")
+        if self.faces.ndim != 2 or self.faces.shape[1] != 3:
+            raise ValueError(f"faces have the form {self.faces.shape}, not (F, 3)")
+        if not np.isfinite(self.vertices).all():
+            raise ValueError("some vertices are not finite (NaN or infinity)")
+        if len(self.faces) and (self.faces.min() < 0 or self.faces.max() >= len(self.vertices)):
+            raise ValueError(f"faces point outside the {len(self.vertices)} vertices")
+        if self.face_labels is not None:
+            object.__setattr__(self, "face_labels", np.ascontiguousarray(self.face_labels, dtype=np.int64))
+            if self.face_labels.shape != (len(self.faces),):
+                raise ValueError(f"{len(self.face_labels)} face labels for {len(self.faces)} faces")
+
+    @cached_property
+    def bounds(self) -> Floats:
+        """(2, 3): the least and the greatest corner of the vertices that faces use."""
+        if not len(self.faces):
+            raise ValueError("a mesh without faces has no bounds")
+        used = np.zeros(len(self.vertices), dtype=bool)
+        used[self.faces] = True
+        corners = self.vertices[used]
+        return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+    @property
+    def extent(self) -> Floats:
+        """(3,): size of the bounding box."""
+        return np.asarray(self.bounds[1] - self.bounds[0])
+
+    @cached_property
+    def triangles(self) -> Floats:
+        """(F, 3, 3): the corners of each face."""
+        return np.asarray(self.vertices[self.faces])
+
+    @property
+    def labels(self) -> tuple[str | None, ...]:
+        """The label of each face, None where it has none."""
+        if self.face_labels is None:
+            return (None,) * len(self.faces)
+        return tuple(self.label_names[i] if i >= 0 else None for i in self.face_labels)
+
+    def label(self, name: str) -> Mesh:
+        """The same mesh with every face labelled ``name``."""
+        return replace(self, face_labels=np.zeros(len(self.faces), dtype=np.int64), label_names=(name,))
+
+    def transformed(self, matrix: ArrayLike) -> Mesh:
+        """The mesh under a 3x3 or 4x4 matrix; faces keep their order of corners."""
+        matrix = np.asarray(matrix, dtype=np.float64)
+        moved = self.vertices @ matrix[:3, :3].T
+        return replace(self, vertices=moved + matrix[:3, 3] if matrix.shape == (4, 4) else moved)
+
+    def normalisation(self) -> Transform:
+        """Centre of the bounding box to the origin, largest extent to 1 (LFD, "Descriptor")."""
+        largest = float(self.extent.max())
+        if largest <= 0.0:
+            raise ValueError("a mesh of no size cannot be normalised")
+        return Transform(tuple(self.bounds.mean(axis=0)), 1.0 / largest)
+
+    def normalised(self) -> Mesh:
+        return replace(self, vertices=self.normalisation().apply(self.vertices))
+
+    def soundness(self) -> Soundness:
+        """Whether the mesh is closed, manifold, oriented, free of self-intersections and slivers; and its parts."""
+        from shapewright.shapes.soundness import soundness
+
+        return soundness(self.vertices, self.faces)
+
+    def __repr__(self) -> str:
+        return f"Mesh({len(self.vertices)} vertices, {len(self.faces)} faces)"
+
+
+def concatenate(meshes: list[Mesh]) -> Mesh:
+    """One mesh of all triangles of several; labels are kept. Raises ValueError for an empty list."""
+    if not meshes:
+        raise ValueError("nothing to concatenate")
+    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    names: dict[str, int] = {}
+    labels: list[Ints] = []
+    for mesh in meshes:
+        index = np.array([names.setdefault(name, len(names)) for name in mesh.label_names] + [-1], dtype=np.int64)
+        labels.append(index[mesh.face_labels] if mesh.face_labels is not None else np.full(len(mesh.faces), -1))
+    return Mesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]),
+        np.concatenate(labels) if names else None,
+        tuple(names),
+    )
+
+
+def mesh_digest(mesh: Mesh) -> str:
+    """A key for the geometry alone: equal vertices and faces have equal digests."""
+    import hashlib
+
+    digest: Any = hashlib.blake2b(digest_size=16)
+    digest.update(np.int64(len(mesh.vertices)).tobytes())
+    digest.update(mesh.vertices.tobytes())
+    digest.update(mesh.faces.tobytes())
+    return str(digest.hexdigest())

@@ -1,0 +1,1 @@
+"""The bench: the process that builds, draws and measures for the page."""

@@ -1,0 +1,77 @@
+"""The program of the studio's builder process: one version of the procedure, and one shape after another of it.
+
+Only this process runs the author's code. It says which parameters matter as well as what they build, because a ``when``
+is the author's code too, and it stops code that takes too long at the author's line; what does not stop (a loop in a
+library written in C) is killed by the parent.
+"""
+
+from __future__ import annotations
+
+import pickle
+import sys
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+from shapewright.building.clock import COMPILING, TimeLimit, time_limit
+from shapewright.building.outcomes import Build, Failure, Limits
+from shapewright.building.worker import attend, build, limit_memory
+from shapewright.parameters import Parameters
+from shapewright.procedures import Procedure, ProcedureError, author_line, load_procedure
+from shapewright.records import to_record
+from shapewright.runs.result import at_limit
+from shapewright.shapes import Mesh
+from shapewright.studio.bench.built import Built, Version
+
+LOADING_SECONDS = 20.0
+"""What reading the author's file may take, its imports included."""
+MOST_TRIANGLES = 400_000
+"""More than a page can turn smoothly."""
+
+
+def try_build(
+    procedure: Procedure, values: Parameters, limits: Limits, compiling: Callable[[], object] = lambda: None
+) -> Built:
+    """Build the shape at these values, carried over into the procedure's space. compiling: see ``time_limit``."""
+    try:
+        with time_limit(limits.seconds, compiling):
+            parameters = procedure.space.carry(values)
+            made = build(procedure, parameters, limits)
+            if isinstance(made.shape, Mesh) and len(made.shape.faces) > MOST_TRIANGLES:
+                much = f"{len(made.shape.faces)} triangles are more than the studio shows ({MOST_TRIANGLES})"
+                return Built(Build(parameters, None, Failure("no shape", much), made.seconds))
+            return Built(made, procedure.space.active(parameters), at_limit(procedure.space, parameters))
+    except TimeLimit as error:
+        return Built(Build(dict(values), None, Failure("time", author_line(error, procedure.path))))
+    except ValueError as error:  # a `when` failed
+        return Built(Build(dict(values), None, Failure("raised", f"{procedure.where}: {error}")))
+
+
+def serve(connection: Connection) -> None:
+    """Answer requests, a mapping of values each, until the other side hangs up."""
+    target, search_path = pickle.loads(connection.recv_bytes())
+    limits: Limits = connection.recv()
+    sys.path[:] = search_path
+    try:
+        with time_limit(LOADING_SECONDS):
+            procedure = load_procedure(target)
+            version = _version(procedure)
+    except TimeLimit as error:
+        connection.send(Failure("time", author_line(error, Path(target))))
+        return
+    except ProcedureError as error:
+        connection.send(Failure("raised", str(error)))
+        return
+    limit_memory(limits.memory_mb)
+    connection.send(version)
+    while True:
+        connection.send(try_build(procedure, connection.recv(), limits, lambda: connection.send(COMPILING)))
+
+
+def _version(procedure: Procedure) -> Version:
+    parameters = [{**to_record(p), "conditional": p.when is not None} for p in procedure.space]
+    return Version(procedure.name, parameters, procedure.space.defaults)
+
+
+if __name__ == "__main__":
+    attend(serve)

@@ -1,0 +1,74 @@
+"""The project's references, as the bench holds them: read when they are looked at, the last few kept in memory."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable
+from pathlib import Path
+from typing import Generic, TypeVar
+
+from shapewright.references.collection import Reference, read_reference
+from shapewright.rendering.thumbnails import thumbnail
+from shapewright.shapes import Mesh, Shape
+from shapewright.studio.project.listing import PICTURE, Listing, kept_picture
+
+Item = TypeVar("Item")
+_MEMORY = 32 * 2**20
+
+
+class Shelf(Generic[Item]):
+    """The things that were used last, as many as fit into ``most`` bytes, at least one."""
+
+    def __init__(self, most: int, size: Callable[[Item], int]) -> None:
+        self._items: OrderedDict[str, tuple[Item, int]] = OrderedDict()
+        self._most, self._size, self._held = most, size, 0
+
+    def get(self, key: str) -> Item | None:
+        """The thing of this name, if it is still there."""
+        if key not in self._items:
+            return None
+        self._items.move_to_end(key)
+        return self._items[key][0]
+
+    def put(self, key: str, item: Item) -> Item:
+        """Put a thing there that was not, and return it."""
+        self._items[key] = (item, self._size(item))
+        self._held += self._items[key][1]
+        while self._held > self._most and len(self._items) > 1:
+            self._held -= self._items.popitem(last=False)[1][1]
+        return item
+
+
+class Gallery:
+    """The references of a listing. cache: a folder for their pictures, None for none."""
+
+    def __init__(self, listed: Listing, cache: Path | None) -> None:
+        self.listed = listed
+        self._cache = cache
+        self._shelf: Shelf[Reference] = Shelf(_MEMORY, lambda reference: shape_bytes(reference.shape))
+
+    def __getitem__(self, slug: str) -> Reference:
+        """Raises KeyError for a slug that is not known, UnreadableError for a file that cannot be read."""
+        source = self.listed.sources[slug]
+        return self._shelf.get(slug) or self._shelf.put(slug, read_reference(source))
+
+    def picture(self, slug: str) -> bytes:
+        """PNG of a reference, kept in the cache from now on. Raises as ``[]`` does."""
+        drawn = picture(self[slug].shape, PICTURE)
+        kept = kept_picture(self._cache, self.listed.sources[slug]) if self._cache else None
+        if kept:
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            partial = kept.with_suffix(".part")
+            partial.write_bytes(drawn)
+            partial.replace(kept)
+        return drawn
+
+
+def picture(shape: Shape, size: int) -> bytes:
+    """PNG of a shape. Raises ValueError for one that cannot be drawn."""
+    return thumbnail(shape, size)
+
+
+def shape_bytes(shape: Shape) -> int:
+    """About what a shape takes in memory, with what is made of it."""
+    return 4 * (shape.vertices.nbytes + shape.faces.nbytes) if isinstance(shape, Mesh) else 2**16

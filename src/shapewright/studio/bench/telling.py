@@ -1,0 +1,87 @@
+"""How the bench tells shapes, as PROTOCOL.md has it: meshes, residuals, drawings, and what is known of a reference."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import shapely
+
+from shapewright.references.collection import Reference
+from shapewright.shapes import Drawing, Mesh
+from shapewright.studio.bench.built import Built
+from shapewright.studio.bench.residual_colours import LIMIT, Residual
+from shapewright.studio.wire.frames import binary
+
+_DIGITS = 5
+_LEAST = 1e-7  # of the area that a path shows; two equal edges leave slivers of rounding between them
+
+
+def about(reference: Reference) -> dict[str, Any]:
+    """What the page tells of a reference: its triangles, notes, and the way back to its own units and axes."""
+    shape, solid = reference.shape, isinstance(reference.shape, Mesh)
+    extent = (shape.bounds[1] - shape.bounds[0]) / reference.transform.scale
+    return {
+        "triangles": len(shape.faces) if isinstance(shape, Mesh) else None,
+        "notes": list(reference.notes),
+        "units": {
+            "centre": list(reference.transform.centre),
+            "scale": reference.transform.scale,
+            "axes": (reference.orientation.matrix if solid else np.eye(2)).tolist(),
+            "size": np.abs(reference.orientation.invert(extent) if solid else extent).tolist(),
+        },
+    }
+
+
+def replica_header(built: Built) -> dict[str, Any]:
+    """What the message of a replica says of it."""
+    shape = built.build.shape
+    assert shape is not None
+    return {
+        "shape": "replica",
+        "parameters": built.build.parameters,
+        "active": list(built.active),
+        "at_limit": list(built.at_limit),
+        "units": {"size": (shape.bounds[1] - shape.bounds[0]).tolist()},
+        "milliseconds": round(1000.0 * built.build.seconds, 2),
+    }
+
+
+def drawing_message(drawing: Drawing, reference: Drawing | None, header: dict[str, Any]) -> dict[str, Any]:
+    """The message ``drawing``: its outline, and where a reference is given, what only one of the two covers."""
+    missing = excess = None
+    if reference is not None:
+        missing = path(reference.geometry.difference(drawing.geometry))
+        excess = path(drawing.geometry.difference(reference.geometry))
+    return {"type": "drawing", **header, "path": path(drawing.geometry), "missing": missing, "excess": excess}
+
+
+def path(geometry: Any) -> str:
+    """The area of a shapely geometry as SVG path data, to be filled by the even-odd rule; y up."""
+    areas = [part for part in shapely.get_parts(geometry) if part.area > _LEAST]
+    rings = (np.round(shapely.get_coordinates(ring), _DIGITS) for ring in shapely.get_rings(areas))
+    return "".join("M" + "L".join(f"{x:g} {y:g}" for x, y in ring[:-1].tolist()) + "Z" for ring in rings)
+
+
+def mesh_message(mesh: Mesh, header: dict[str, Any]) -> bytes:
+    """The binary message ``mesh``; its vertices are those of ``mesh`` as they are."""
+    buffers: dict[str, Any] = {
+        "positions": mesh.vertices.astype(np.float32).ravel(),
+        "indices": mesh.faces.astype(np.uint32).ravel(),
+    }
+    if mesh.face_labels is not None:
+        buffers["labels"] = mesh.face_labels.astype(np.int32)
+    counts = {"vertices": len(mesh.vertices), "triangles": len(mesh.faces)}
+    return binary({"type": "mesh", **header, **counts, "label_names": list(mesh.label_names)}, buffers)
+
+
+def residual_message(found: Residual, header: dict[str, Any]) -> bytes:
+    """The binary message ``residuals``."""
+    counts = {"vertices": len(found.vertices), "triangles": len(found.faces)}
+    buffers = {
+        "positions": found.vertices.astype(np.float32).ravel(),
+        "indices": found.faces.astype(np.uint32).ravel(),
+        "colours": found.colours.astype(np.float32).ravel(),
+        "distances": found.distances.astype(np.float32),
+    }
+    return binary({"type": "residuals", **header, **counts, "signed": found.signed, "limit": LIMIT}, buffers)

@@ -1,0 +1,49 @@
+"""The program of an explanation, beside the server: the command ``shapewright explain``, with its progress told."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any, TextIO
+
+from shapewright.progress import Progress
+from shapewright.studio.jobs.fit_job import collection, streams, tell
+from shapewright.studio.project.listing import Origin
+
+
+def explain(run: Path, origin: Origin, events: TextIO) -> None:
+    """Explain a run and put that into its folder. origin: of the references."""
+    from shapewright.feedback.explanation import explain as explain_iteration
+    from shapewright.feedback.record import write
+    from shapewright.feedback.suggestions import suggestion_records
+    from shapewright.runs.folder import cache_folder, previous_run
+    from shapewright.runs.inputs import procedure_of
+    from shapewright.runs.iteration import Iteration
+
+    def listen(progress: Progress) -> None:
+        told: dict[str, Any] = {name: getattr(progress, name) for name in ("stage", "done", "total", "remark")}
+        tell(events, event="progress", **told)
+
+    iteration = Iteration.load(run)
+    procedure = procedure_of(run, iteration)
+    found = explain_iteration(procedure, collection(origin), iteration, listen, cache_folder(), suggestion_records)
+    write(run, found.record, previous_run(run, set(iteration.names)))
+
+
+def main() -> None:
+    from shapewright.procedures import ProcedureError
+    from shapewright.references import CollectionError
+    from shapewright.runs.folder import RunError
+
+    request, events = streams()
+    run = Path(request["run"])
+    try:
+        explain(run, Origin(**request["origin"]), events)
+    except (ProcedureError, CollectionError, RunError, KeyError, ValueError, OSError) as error:
+        tell(events, event="failed", kind="explain", message=str(error))
+        sys.exit(1)
+    tell(events, event="done", result={"run": run.name})
+
+
+if __name__ == "__main__":
+    main()

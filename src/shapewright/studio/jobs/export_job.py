@@ -1,0 +1,112 @@
+"""The program of an export: replicas, random samples, the report and the parameters of a run, in one ZIP."""
+
+from __future__ import annotations
+
+import re
+import sys
+import tempfile
+import time
+import zipfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, TextIO
+from urllib.parse import quote
+
+from shapewright.runs.folder import read_record
+from shapewright.studio.jobs.fit_job import streams, tell
+
+_KEPT = 5
+"""Exports that are left in the project's scratch folder; older ones are deleted."""
+
+
+def pack(request: Mapping[str, Any], events: TextIO) -> Path:
+    """Write the ZIP that a request describes; returns its path."""
+    folder = Path(request["folder"])
+    folder.mkdir(parents=True, exist_ok=True)
+    run = Path(request["run"]) if request["run"] else None
+    stem = re.sub(r"[^A-Za-z0-9_-]+", "-", "-".join([Path(request["procedure"]).resolve().parent.name, *_names(run)]))
+    file = folder / f"{stem.strip('-')}-{time.strftime('%Y%m%d-%H%M%S')}.zip"
+    partial = file.with_suffix(".part")
+    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
+        if run and "report" in request["what"]:
+            archive.write(run / "report.html", "report.html")
+        if run and "parameters" in request["what"]:
+            archive.write(run / "parameters.csv", "parameters.csv")
+        if run and "replicas" in request["what"]:
+            for name, data in _replicas(run, request["format"], events):
+                archive.writestr(f"replicas/{name}", data)
+        if "samples" in request["what"]:
+            _add_samples(request, archive, events)
+    partial.replace(file)
+    for old in sorted(folder.glob("*.zip"), key=lambda path: path.stat().st_mtime)[:-_KEPT]:
+        old.unlink()
+    return file
+
+
+def _names(run: Path | None) -> list[str]:
+    return [run.name] if run else []
+
+
+def _replicas(run: Path, format: str, events: TextIO) -> Iterator[tuple[str, bytes]]:
+    """Names and contents of the replicas' files; each says in its extras which reference it replicates."""
+    from shapewright.shapes.files import encode
+
+    record = read_record(run)
+    entries = [entry for entry in record["references"] if entry["replica"]]
+    for done, entry in enumerate(entries):
+        file = run / entry["replica"]
+        if file.suffix == f".{format}" or file.suffix != ".glb":
+            yield file.name, file.read_bytes()
+        else:
+            extras = {"procedure": record["procedure"]["name"], "reference": entry["name"]}
+            shape = _mesh(file)
+            yield f"{entry['slug']}.{format}", encode(shape, format, {**extras, "parameters": entry["parameters"]})  # type: ignore[arg-type]
+        tell(events, event="progress", stage="replicas", done=done + 1, total=len(entries), remark="")
+
+
+def _mesh(file: Path) -> Any:
+    import numpy as np
+    import trimesh
+
+    from shapewright.shapes import Mesh
+
+    mesh = trimesh.load_mesh(file, process=False)
+    return Mesh(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+
+
+def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, events: TextIO) -> None:
+    from shapewright.fitting.samples import write_samples
+    from shapewright.procedures import load_procedure
+
+    with tempfile.TemporaryDirectory(dir=request["folder"]) as place:
+        home = Path(place) / "samples"
+        write_samples(
+            load_procedure(request["procedure"]),
+            request["count"],
+            home,
+            request["format"],
+            request["seed"],
+            progress=lambda done, total: tell(
+                events, event="progress", stage="samples", done=done, total=total, remark=""
+            ),
+        )
+        for path in sorted(home.iterdir()):
+            archive.write(path, f"samples/{path.name}")
+
+
+def main() -> None:
+    from shapewright.procedures import ProcedureError
+    from shapewright.runs.folder import RunError
+
+    request, events = streams()
+    try:
+        file = pack(request, events)
+    except (ProcedureError, RunError, ValueError, OSError) as error:
+        tell(events, event="failed", kind="export", message=str(error))
+        sys.exit(1)
+    url = f"/api/exports/{quote(file.name)}"
+    tell(events, event="done", result={"url": url, "bytes": file.stat().st_size})
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,142 @@
+"""The program of a fit, beside the server: progress, early answers and the finished run, told in lines of JSON."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import threading
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TextIO
+
+from shapewright.progress import Progress
+from shapewright.studio.project.listing import Origin, listing
+
+if TYPE_CHECKING:
+    from shapewright.references import Collection
+
+PREDICTIONS = "predictions.json"
+"""In a run's folder: what the network said of every reference before the search, and how sure it was."""
+
+
+def streams() -> tuple[dict[str, Any], TextIO]:
+    """The request, and a stream for events; what anything else prints goes to standard error.
+
+    When standard input closes the studio has gone, and so does this program, with all that it started. It gives way to
+    live evaluation.
+    """
+    if hasattr(os, "nice"):
+        os.nice(5)
+    events = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    request: dict[str, Any] = json.loads(sys.stdin.buffer.readline())
+
+    def watch() -> None:
+        while os.read(0, 1024):
+            pass
+        if os.name == "posix":
+            os.killpg(os.getpgrp(), signal.SIGKILL)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+    return request, events
+
+
+def tell(events: TextIO, **event: Any) -> None:
+    """Write one event."""
+    events.write(json.dumps(event, allow_nan=False) + "\n")
+    events.flush()
+
+
+def collection(origin: Origin) -> Collection:
+    """The references of a project, but for those that lead out of it. Raises CollectionError."""
+    from shapewright.references import Collection
+
+    listed = listing(origin)
+    whole = Collection.load(origin.source, up=origin.up, front=origin.front)
+    outside = {path.absolute() for path in listed.skipped}
+    inside = tuple(r for r in whole.references if r.path is None or r.path.absolute() not in outside)
+    return replace(whole, references=inside, skipped={**whole.skipped, **listed.skipped})
+
+
+def fit(request: Mapping[str, Any], events: TextIO) -> str:
+    """Fit as the request says and save the run; returns its name."""
+    from shapewright.fitting.fit import fit as iterate
+    from shapewright.procedures import load_procedure
+    from shapewright.report import write_report
+    from shapewright.runs.folder import cache_folder, next_run, previous_run
+    from shapewright.runs.iteration import Iteration
+    from shapewright.settings import Settings
+
+    procedure, references = load_procedure(request["procedure"]), collection(Origin(**request["origin"]))
+    previous = Iteration.load(request["previous"]) if request["previous"] else None
+
+    def listen(progress: Progress) -> None:
+        if progress.answer is not None:
+            tell(events, event="answer", remark=progress.remark, answer=dict(progress.answer))
+            return
+        told = {name: getattr(progress, name) for name in ("stage", "done", "total", "remark")}
+        tell(events, event="progress", **told, losses=progress.losses)
+
+    settings = Settings.from_record(request["settings"])
+    iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
+    tell(events, event="progress", stage="save", done=0, total=1, remark="", losses=None)
+    folder = next_run(Path(request["runs"])).absolute()
+    before = previous_run(folder, set(iteration.names))
+    iteration.save(folder, lambda partial: write_report(partial, before))
+    predictions = json.dumps(predicted(iteration), allow_nan=False)
+    (folder / PREDICTIONS).write_text(predictions, encoding="utf-8")
+    return folder.name
+
+
+def predicted(iteration: Any) -> dict[str, Any]:
+    """By name: the predicted parameters, the spread of each scalar in its own units, the likelihood of each class."""
+    predictor = iteration.predictor
+    results = [result for result in iteration.results if result.reference is not None]
+    if predictor is None or not results:
+        return {}
+    inferred = predictor.infer_with_spread([result.reference for result in results])
+    values = predictor.decode(inferred.values)
+    found: dict[str, Any] = {}
+    for i, result in enumerate(results):
+        spread, likelihood = {}, {}
+        for j, parameter in enumerate(predictor.space):
+            if parameter.classes:
+                shares = inferred.values[j][i]
+                levels = parameter.levels
+                likelihood[parameter.name] = {_key(v): round(float(p), 4) for v, p in zip(levels, shares, strict=True)}
+            else:
+                spread[parameter.name] = float(inferred.spreads[j][i]) * (parameter.high - parameter.low)
+        found[result.name] = {"predicted": values[i], "spread": spread, "likelihood": likelihood}
+    return found
+
+
+def _key(value: Any) -> str:
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def main() -> None:
+    from shapewright.procedures import ProcedureError
+    from shapewright.references import CollectionError
+    from shapewright.runs.folder import RunError
+
+    request, events = streams()
+    try:
+        name = fit(request, events)
+    except ProcedureError as error:
+        tell(events, event="failed", kind="load", message=str(error))
+        sys.exit(1)
+    except CollectionError as error:
+        tell(events, event="failed", kind="references", message=str(error))
+        sys.exit(1)
+    except (RunError, ValueError, OSError) as error:
+        tell(events, event="failed", kind="fit", message=str(error))
+        sys.exit(1)
+    tell(events, event="done", result={"run": name})
+
+
+if __name__ == "__main__":
+    main()

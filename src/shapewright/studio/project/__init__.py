@@ -1,0 +1,1 @@
+"""The author's project on disk."""

@@ -1,0 +1,64 @@
+"""The project's references by name: what there is to read, found without reading it, and where pictures are kept."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from shapewright.references.readers.formats import MESHES
+from shapewright.references.sources import Source, find
+from shapewright.runs.result import file_names
+
+PICTURE = 256
+"""Pixels of a reference's thumbnail."""
+_PICTURE_FORMAT = 1
+"""Part of every cached picture's name; raise it whenever the same file would get another picture."""
+_OUTSIDE = "a link that leads out of the project folder; start the studio with --references to allow it"
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where the references are. up, front: axes of the files. confine: the folder that no file may lie outside of,
+    links followed; None for a source that was named on the command line."""
+
+    source: str
+    up: str = "y"
+    front: str | None = None
+    confine: str | None = None
+
+
+@dataclass(frozen=True)
+class Listing:
+    """The references of a source by slug, in natural order of their names; and paths that will not be read, and why."""
+
+    sources: Mapping[str, Source]
+    skipped: Mapping[Path, str]
+
+    @property
+    def dimension(self) -> int:
+        """2 where all are drawings, else 3."""
+        kinds = {source.path.suffix.lower() for source in self.sources.values()}
+        return 2 if kinds and not kinds & set(MESHES) else 3
+
+
+def listing(origin: Origin) -> Listing:
+    """The references of a source, unread. Raises CollectionError as ``find`` does."""
+    found = find([origin.source], origin.up, origin.front)
+    home = Path(origin.confine).resolve() if origin.confine else None
+    skipped = {each.path: _OUTSIDE for each in found if home and not each.path.resolve().is_relative_to(home)}
+    inside = [each for each in found if each.path not in skipped]
+    slugs = file_names(tuple(each.name for each in inside))
+    return Listing({slugs[each.name]: each for each in inside}, skipped)
+
+
+def kept_picture(cache: Path, source: Source) -> Path | None:
+    """Where the thumbnail of a file, as it is now, is kept or is to be kept; None when the file is not there."""
+    try:
+        state = source.path.stat()
+    except OSError:
+        return None
+    named = (source.path.resolve(), state.st_mtime_ns, state.st_size, source.orientation, PICTURE, _PICTURE_FORMAT)
+    digest = hashlib.blake2b(repr(named).encode(), digest_size=16).hexdigest()
+    return cache / "thumbnails" / f"{digest}.png"

@@ -1,0 +1,180 @@
+"""The author's project on disk: one folder with a procedure, references and runs. Nothing outside it is touched."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import secrets
+import shutil
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from shapewright.runs.folder import runs
+from shapewright.studio.project.listing import Origin
+
+SCRATCH = ".shapewright"
+"""Folder of a project for what may be thrown away: replaced versions of the procedure, exports."""
+_START = "shapewright new NAME makes one, and shapewright demo one with forty tables"
+
+
+class ProjectError(Exception):
+    """A folder is no project, or a file of it cannot be used; the message says what to do."""
+
+
+class Missing(KeyError):
+    """What was asked for is not there; the message says what."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class Conflict(Exception):
+    """The procedure was changed by someone else meanwhile. text, digest: what is there now."""
+
+    def __init__(self, text: str, digest: str) -> None:
+        super().__init__("the file has changed since; look at it before you write over it")
+        self.text, self.digest = text, digest
+
+
+@dataclass(frozen=True)
+class Project:
+    """folder: absolute, links resolved. procedure: the author's file, inside it. origin: where the references are."""
+
+    folder: Path
+    procedure: Path
+    origin: Origin
+
+    @classmethod
+    def of(
+        cls,
+        folder: Path,
+        procedure: str = "procedure.py",
+        references: str | None = None,
+        up: str = "y",
+        front: str | None = None,
+    ) -> Project:
+        """The project in a folder. references: another source than its folder ``references``, which may lie anywhere.
+
+        Raises ProjectError for a folder without a procedure.
+        """
+        home = folder.expanduser().resolve()
+        if not home.is_dir():
+            raise ProjectError(f"{folder}: no such folder; {_START}")
+        path = home / procedure
+        if not path.is_file():
+            raise ProjectError(f"{folder}: no {procedure} here, so this is no project; {_START}")
+        if not path.resolve().is_relative_to(home):
+            raise ProjectError(f"{path}: a link that leads out of the project; put the file itself there")
+        if references is None:
+            (home / "references").mkdir(exist_ok=True)
+            origin = Origin(str(home / "references"), up, front, confine=str(home))
+        else:
+            origin = Origin(str(Path(references).expanduser().absolute()), up, front)
+        return cls(home, path, origin)
+
+    @property
+    def runs(self) -> list[Path]:
+        """Folders of whole runs, oldest first; none that leads out of the project."""
+        return [run for run in runs(self.folder / "runs") if run.resolve().is_relative_to(self.folder)]
+
+    def run(self, name: str) -> Path:
+        """The folder of a run. Raises Missing when there is none of this name."""
+        found = next((run for run in self.runs if run.name == name), None)
+        if found is None:
+            raise Missing(f"there is no run {name!r}")
+        return found
+
+    def run_file(self, name: str, path: str) -> Path:
+        """A file of a run. Raises Missing when it is not there, or lies outside the run's folder, links followed."""
+        home = self.run(name).resolve()
+        file = (home / path).resolve()
+        if not home.is_relative_to(self.folder) or not file.is_relative_to(home) or not file.is_file():
+            raise Missing(f"there is no file {path!r} in run {name}")
+        return file
+
+    def read_source(self) -> tuple[str, str]:
+        """Text and digest of the procedure. Raises ProjectError when it cannot be read, or leads out of the project."""
+        if not self.procedure.resolve().is_relative_to(self.folder):
+            raise ProjectError(f"{self.procedure.name} has become a link that leads out of the project")
+        try:
+            text = self.procedure.read_text(encoding="utf-8")
+        except FileNotFoundError as error:
+            raise ProjectError(f"{self.procedure.name} is not there any more") from error
+        except (OSError, UnicodeDecodeError) as error:
+            raise ProjectError(f"{self.procedure.name} cannot be read as UTF-8 text: {error}") from error
+        return text, digest(text)
+
+    def write_source(self, text: str, expected: str | None) -> str:
+        """Replace the procedure's text, whole or not at all, and return its digest.
+
+        expected: digest of the text that the edit began from; None to write whatever is there. What is replaced is kept
+        in the project's scratch folder. Raises Conflict, ProjectError.
+        """
+        before, found = self.read_source()
+        if expected is not None and found != expected:
+            raise Conflict(before, found)
+        if text != before:
+            (self.scratch() / f"procedure-{time.strftime('%Y%m%d-%H%M%S')}-{found}.py").write_text(before, "utf-8")
+            ending = "\r\n" if b"\r\n" in self.procedure.read_bytes() else "\n"
+            _write(self.procedure, text.replace("\r\n", "\n"), ending)
+        return digest(text)
+
+    def write_copy(self, text: str) -> Path:
+        """Put a text beside the procedure under a new name, and return its path."""
+        stem = self.procedure.stem
+        home = self.procedure.parent
+        taken = {path.name for path in home.iterdir()}
+        name = next(name for i in range(1, len(taken) + 2) if (name := f"{stem}-{i}.py") not in taken)
+        _write(home / name, text, "\n")
+        return home / name
+
+    def scratch(self) -> Path:
+        """The folder for what may be thrown away; git passes over it."""
+        folder = self.folder / SCRATCH
+        if folder.is_symlink():
+            raise ProjectError(f"{folder}: a link; remove it")
+        folder.mkdir(exist_ok=True)
+        if not (folder / ".gitignore").exists():
+            (folder / ".gitignore").write_text("*\n")
+        return folder
+
+    def fingerprint(self) -> str:
+        """Changes whenever the procedure does, or a Python file beside it that it names, or that such a file names."""
+        texts = {path.stem: _read_bytes(path) for path in self.procedure.parent.glob("*.py")}
+        used: set[str] = set()
+        found = {self.procedure.stem}
+        while found:
+            used |= found
+            words = {word for stem in found for word in re.findall(rb"\w+", texts.get(stem, b""))}
+            found = {stem for stem in texts if stem.encode() in words} - used
+        named = repr([(stem, texts.get(stem)) for stem in sorted(used)])
+        return hashlib.blake2b(named.encode(), digest_size=8).hexdigest()
+
+
+def digest(text: str) -> str:
+    """As a run's record has it."""
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _write(path: Path, text: str, newline: str) -> None:
+    """Replace a file's text, whole or not at all; a link is followed."""
+    target = path.resolve()
+    partial = target.with_name(f".{target.name}.{secrets.token_hex(4)}.part")
+    try:
+        with partial.open("w", encoding="utf-8", newline=newline) as file:
+            file.write(text)
+        if target.exists():
+            shutil.copymode(target, partial)
+        partial.replace(target)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise ProjectError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def _read_bytes(path: Path) -> bytes:
+    """Empty for a file that is just being replaced, or that may not be read."""
+    try:
+        return path.read_bytes()
+    except OSError:
+        return b""

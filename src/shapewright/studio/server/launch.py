@@ -1,0 +1,89 @@
+"""Starting the studio: a free port, the address printed, the browser opened, and a clean end."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import threading
+import webbrowser
+from collections.abc import Callable
+
+import uvicorn
+
+from shapewright.studio.project.preferences import Preferences
+from shapewright.studio.project.workspace import Project, ProjectError
+from shapewright.studio.server.app import make_app
+from shapewright.studio.server.security import LOOPBACK, MOST_BYTES, Access
+from shapewright.studio.session.session import Session
+
+PORT = 8470
+"""Tried first, so that the address stays the same from day to day."""
+
+
+def serve(
+    project: Project,
+    preferences: Preferences,
+    host: str = "127.0.0.1",
+    port: int | None = None,
+    allow_remote: bool = False,
+    browser: bool = True,
+    started: Callable[[str], object] = lambda address: None,
+) -> None:
+    """Serve a project until interrupted. started: called with the address, the token in it, as soon as it answers.
+
+    port: None for PORT or, where that is taken, any. Raises ProjectError when the port is taken, and for an address
+    that others can reach unless ``allow_remote``.
+    """
+    if host not in LOOPBACK and not allow_remote:
+        raise ProjectError(
+            f"--host {host}: others could reach the studio there, and whoever has its token can run code as you; "
+            "add --allow-remote if that is what you want"
+        )
+    listening = _listen(host, port)
+    access = Access(host, listening.getsockname()[1])
+    config = uvicorn.Config(
+        make_app(Session(project, preferences), access),
+        log_level="warning",
+        access_log=False,
+        proxy_headers=False,
+        server_header=False,
+        ws_max_size=MOST_BYTES,
+        timeout_graceful_shutdown=2,
+    )
+    server = _Announcing(config, lambda: _announce(access.address, started, browser))
+    with contextlib.suppress(KeyboardInterrupt):
+        server.run(sockets=[listening])
+
+
+class _Announcing(uvicorn.Server):
+    """A server that says when it answers."""
+
+    def __init__(self, config: uvicorn.Config, announce: Callable[[], object]) -> None:
+        super().__init__(config)
+        self._announce = announce
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        self._announce()
+
+
+def _announce(address: str, started: Callable[[str], object], browser: bool) -> None:
+    started(address)
+    if browser:
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+
+def _listen(host: str, port: int | None) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    reasons = []
+    for number in (PORT, 0) if port is None else (port,):
+        listening = socket.socket(family, socket.SOCK_STREAM)
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listening.bind((host, number))
+        except OSError as error:
+            listening.close()
+            reasons.append(f"{host}:{number}: {error.strerror or error}")
+            continue
+        return listening
+    raise ProjectError(f"cannot listen on {reasons[0]}; name another with --port")

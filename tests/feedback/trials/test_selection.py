@@ -1,0 +1,86 @@
+"""Which proposals are shown: those that bring something, with the Ranges that references need."""
+
+import pytest
+
+import shapewright as sw
+from shapewright.building import Workers
+from shapewright.feedback.ideas.proposal import Misfit, Proposal
+from shapewright.feedback.trials.selection import selected
+from shapewright.feedback.writing.edit import with_range
+from shapewright.judging.judge import Judge
+from shapewright.modelling.solids import box
+
+POST = """from typing import Annotated
+from shapewright import Range, procedure
+from shapewright.modelling.solids import box
+
+@procedure
+def post(height: Annotated[float, Range(0.2, 1.0)] = 0.6, depth: Annotated[float, Range(0.1, 0.3)] = 0.1):
+    return box((0.5, height, depth))
+"""
+
+
+@pytest.fixture
+def post(tmp_path):
+    path = tmp_path / "post.py"
+    path.write_text(POST)
+    return sw.load_procedure(path)
+
+
+def longer(name, high, rows):
+    """A longer Range, proposed for some misfits."""
+    ranges = {name: (0.1, high, 0.3)}
+    return Proposal(
+        "range",
+        f"A wider Range of {name}",
+        lambda chosen: with_range(POST, "post", name, None, f"{chosen[name][1]:g}", None),
+        ranges,
+        {row: {} for row in rows},
+        1.0,
+        ends=((name, "high"),),
+    )
+
+
+def tall(post, heights):
+    judge = Judge.of(sw.Collection.of({f"{h}": box((0.5, h, 0.1)).mesh() for h in heights}), sw.Settings(workers=1))
+    start = {"height": 1.0, "depth": 0.1}
+    with Workers(post, 1) as crew:
+        before = judge.distances(crew.build([start] * len(heights)))
+    misfits = [Misfit(i, start, post(**start), (), start, judge.goal, None, 15_000 * d) for i, d in enumerate(before)]
+    return misfits, judge
+
+
+def test_what_brings_something_is_shown_with_the_ranges_that_are_needed(post):
+    misfits, judge = tall(post, (2.8, 3.2))
+    assert all(misfit.before > judge.goal for misfit in misfits)
+    ideas = [longer("depth", 0.9, (0, 1)), longer("height", 4.0, (0,))]
+    known = [(misfits[0].parameters, misfits[0].replica)]
+    shown = selected(post, ideas, misfits, judge, known, 400, 3)
+    assert [each.proposal.title for each in shown] == ["A wider Range of height"]
+    (height,) = shown
+    assert height.trial.compatible == (0, 1) and 2.0 < height.ranges["height"][1] < 4.0
+    assert height.source == height.proposal.write(height.ranges)
+    again = selected(post, ideas, misfits, judge, known, 400, 3)
+    assert again[0].trial.parameters == height.trial.parameters and again[0].source == height.source
+
+
+def test_parameters_known_with_longer_ranges_need_no_search(post):
+    misfits, judge = tall(post, (3.0,))
+    (plain,) = misfits
+    known = Misfit(0, plain.parameters, plain.replica, (), plain.nearest, judge.goal, {"height": 3.0, "depth": 0.1})
+    (shown,) = selected(post, [longer("height", 4.0, (0,))], [known], judge, [], 1, 3)
+    assert shown.trial.parameters[0] == {"height": 3.0, "depth": 0.1} and shown.trial.distances[0] < 0.02
+    assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, [], 1, 3) == []
+
+
+def test_a_change_of_what_was_there_is_not_shown(post):
+    misfits, judge = tall(post, (3.0,))
+    known = [({"height": 0.5, "depth": 0.1}, box((0.5, 0.7, 0.1)).mesh())]
+    assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, known, 400, 3) == []
+    assert selected(post, [longer("breadth", 3.0, (0,))], misfits, judge, [], 400, 3) == []
+
+
+def test_the_way_to_a_compatible_shape():
+    misfit = Misfit(0, {}, box(1.0).mesh(), goal=100.0, before=150.0)
+    assert [misfit.way(cost) for cost in (160.0, 150.0, 125.0, 100.0, 40.0)] == [0.0, 0.0, 0.5, 1.0, 1.0]
+    assert Misfit(0, {}, box(1.0).mesh(), goal=100.0).way(150.0) == 0.5

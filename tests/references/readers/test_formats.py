@@ -1,0 +1,309 @@
+import json
+import logging
+import struct
+import warnings
+
+import numpy as np
+import pytest
+import trimesh
+
+from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.formats import EXTENSIONS, read
+
+# A soup: an open box corner with a doubled face, an inverted one, and a degenerate one.
+VERTICES = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [0, 0, 0.5], [2, 0, 0.5]])
+FACES = np.array([[0, 1, 2], [0, 2, 3], [0, 2, 3], [3, 2, 0], [0, 1, 5], [0, 5, 4], [1, 1, 2]])
+SQUARE = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+
+
+@pytest.fixture(autouse=True)
+def silence(caplog, capfd):
+    """Nothing is to be printed, warned of or logged at WARNING while a file is read."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        yield
+    assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []
+    assert "".join(capfd.readouterr()) == ""
+
+
+def put(tmp_path, name: str, content: bytes):
+    path = tmp_path / name
+    path.write_bytes(content)
+    return path
+
+
+def triangles(path) -> np.ndarray:
+    return read(path)[0].triangles
+
+
+def reason(path) -> str:
+    with pytest.raises(UnreadableError) as error:
+        read(path)
+    return str(error.value)
+
+
+def soup() -> trimesh.Trimesh:
+    return trimesh.Trimesh(VERTICES, FACES, process=False)
+
+
+@pytest.mark.parametrize("kind", [".obj", ".ply", ".stl", ".off", ".glb", ".3mf"])
+@pytest.mark.parametrize("case", [str.lower, str.upper])
+def test_each_kind_gives_back_the_same_triangles_in_their_order(tmp_path, kind, case):
+    path = tmp_path / case(f"shape{kind}")
+    path.write_bytes(
+        trimesh.exchange.export.export_mesh(soup(), None, kind[1:]).encode()
+        if kind in (".obj", ".off")
+        else trimesh.exchange.export.export_mesh(soup(), None, kind[1:])
+    )
+    np.testing.assert_allclose(triangles(path), VERTICES[FACES], atol=1e-7)
+    assert read(path)[1] == ()
+
+
+def test_gltf_with_its_buffers_beside_it(tmp_path):
+    for name, content in soup().scene().export(file_type="gltf").items():
+        put(tmp_path, name, content)
+    np.testing.assert_allclose(triangles(tmp_path / "model.gltf"), VERTICES[FACES])
+    (tmp_path / "gltf_buffer_0.bin").unlink()
+    assert reason(tmp_path / "model.gltf") == "it needs gltf_buffer_0.bin, which is missing"
+
+
+@pytest.mark.parametrize("kind", ["ply", "stl"])
+def test_the_ascii_kinds(tmp_path, kind):
+    options = {"ply": {"encoding": "ascii"}, "stl": {}}[kind]
+    content = soup().export(file_type="stl_ascii" if kind == "stl" else "ply", **options)
+    path = put(tmp_path, f"shape.{kind}", content.encode() if isinstance(content, str) else content)
+    np.testing.assert_allclose(triangles(path), VERTICES[FACES], atol=1e-7)
+
+
+@pytest.mark.parametrize("kind", ["glb", "3mf"])
+def test_scenes_are_flattened_where_they_place_their_meshes(tmp_path, kind):
+    scene = trimesh.Scene()
+    part = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], process=False)
+    turn = trimesh.transformations.rotation_matrix(np.pi / 2, [0, 0, 1])
+    lift = trimesh.transformations.translation_matrix([0, 0, 5])
+    scene.add_geometry(part, geom_name="part", node_name="turned", transform=turn)
+    scene.graph.update("lifted", "world", matrix=lift, geometry="part")
+    path = put(tmp_path, f"scene.{kind}", scene.export(file_type=kind))
+    found = sorted(np.round(triangle, 6).tolist() for triangle in triangles(path) + 0.0)
+    assert found == [[[0, 0, 0], [0, 1, 0], [-1, 0, 0]], [[0, 0, 5], [1, 0, 5], [0, 1, 5]]]
+
+
+def test_vertices_that_no_triangle_uses_are_left_out(tmp_path):
+    mesh, notes = read(put(tmp_path, "a.obj", b"v nan 0 0\nv 900 0 0\n" + SQUARE + b"f 3 4 5\n"))
+    assert mesh.vertices.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0]]
+    assert notes == ()
+
+
+def test_triangles_with_a_corner_that_is_not_finite_are_left_out_with_a_note(tmp_path):
+    mesh, notes = read(put(tmp_path, "a.obj", SQUARE + b"v inf 0 0\nf 1 2 3\nf 1 2 5\nf 1 3 4\n"))
+    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
+    assert notes == ("1 of 3 triangles left out: a corner is not finite",)
+
+
+class TestObj:
+    def test_statements_of_every_other_kind_are_passed_over(self, tmp_path):
+        content = b"""# made by hand
+mtllib missing.mtl
+o seat
+g first second
+v 0 0 0 1.0 0.5 0.5
+v\t1 0 0
+v 1 1 0 # a comment
+vt 0 0
+vt 1 1 0
+vn 0 0 1
+vp 0.5
+s off
+usemtl \xe9b\xe8ne
+  f 1/1/1 2/2/1 3/1/1
+f 1//1 2//1 \\
+3//1 # split over two lines
+l 1 2
+p 1
+o back
+v 0 1 0
+f 1/1 3/2 4/1
+"""
+        path = put(tmp_path, "a.obj", content)
+        mesh, _ = read(path)
+        assert mesh.faces.tolist() == [[0, 1, 2], [0, 1, 2], [0, 2, 3]]
+        assert mesh.vertices.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        np.testing.assert_array_equal(
+            triangles(put(tmp_path, "b.obj", content.replace(b"\n", b"\r\n"))), mesh.triangles
+        )
+
+    def test_relative_indices_count_back_from_the_face_that_uses_them(self, tmp_path):
+        content = SQUARE + b"f -4 -3 -2 -1\n" + SQUARE.replace(b"0\n", b"7\n") + b"f -4//-1 -3//-1 -2//-1\n"
+        found = triangles(put(tmp_path, "a.obj", content))
+        assert found[:, :, 2].tolist() == [[0, 0, 0], [0, 0, 0], [7, 7, 7]]
+
+    def test_polygons_of_mixed_counts(self, tmp_path):
+        content = b"v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\nf 1 2 3\nf 1 2\nf 1 2 4 5\n"
+        found = triangles(put(tmp_path, "a.obj", content))
+        areas = np.linalg.norm(np.cross(found[:, 1] - found[:, 0], found[:, 2] - found[:, 0]), axis=1) / 2
+        assert len(found) == 6
+        assert areas[:3].sum() == pytest.approx(10.0)
+
+    @pytest.mark.parametrize(
+        ("line", "why"),
+        [
+            (b"f 1 2 9", "point outside its 4 vertices"),
+            (b"f 0 1 2", "point outside its 4 vertices"),
+            (b"f -9 1 2", "point outside its 4 vertices"),
+            (b"f a b c", "cannot understand the line 'f a b c'"),
+            (b"v 1 2", "cannot understand the line 'v 1 2'"),
+            (b"v 1,5 2 3", "cannot understand the line 'v 1,5 2 3'"),
+        ],
+    )
+    def test_a_broken_line_is_the_reason(self, tmp_path, line, why):
+        assert why in reason(put(tmp_path, "a.obj", SQUARE + line + b"\n"))
+
+
+class TestPly:
+    HEADER = (
+        "ply\nformat {} 1.0\ncomment element vertex 9\nobj_info x\nelement vertex 5\nproperty double x\n"
+        "property float y\nproperty float z\nproperty uchar red\nelement face 2\nproperty short flag\n"
+        "property list uchar int {}\nproperty list uchar float texcoord\n"
+        "element edge 1\nproperty int vertex1\nend_header\n"
+    )
+    POINTS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 1))
+    LOOPS = ((0, 1, 2, 3), (0, 1, 4))
+    FACES = ((0, 1, 2), (0, 2, 3), (0, 1, 4))
+
+    def binary(self, order: str) -> bytes:
+        points = b"".join(struct.pack(order + "dffB", *point, 7) for point in self.POINTS)
+        texture = struct.pack(order + "B2f", 2, 0.5, 0.5)
+        loops = (struct.pack(f"{order}hB{len(loop)}i", 1, len(loop), *loop) + texture for loop in self.LOOPS)
+        return points + b"".join(loops) + struct.pack(order + "i", 3)
+
+    @pytest.mark.parametrize("name", ["vertex_indices", "vertex_index"])
+    @pytest.mark.parametrize(("word", "order"), [("binary_little_endian", "<"), ("binary_big_endian", ">")])
+    def test_binary_files_that_mix_polygons_with_other_properties(self, tmp_path, word, order, name):
+        path = put(tmp_path, "a.ply", self.HEADER.format(word, name).encode() + self.binary(order))
+        np.testing.assert_array_equal(triangles(path), np.array(self.POINTS)[np.array(self.FACES)])
+
+    def test_ascii_files_that_mix_polygons(self, tmp_path):
+        points = "".join(f"{x} {y} {z} 7\n" for x, y, z in self.POINTS)
+        loops = "".join(f"1 {len(loop)} {' '.join(map(str, loop))} 2 .5 .5\n" for loop in self.LOOPS)
+        content = self.HEADER.format("ascii", "vertex_indices") + points + loops + "3\n"
+        for name, text in (("a.ply", content), ("b.ply", content.replace("\n", "\r\n"))):
+            found = triangles(put(tmp_path, name, text.encode()))
+            np.testing.assert_array_equal(found, np.array(self.POINTS)[np.array(self.FACES)])
+
+    def test_every_cut_of_a_file_is_a_reason_or_the_whole_shape(self, tmp_path):
+        content = self.HEADER.format("binary_little_endian", "vertex_indices").encode() + self.binary("<")
+        body = len(content) - len(self.binary("<"))
+        for length in range(body, len(content) - 4, 5):
+            assert "cut short" in reason(put(tmp_path, "a.ply", content[:length]))
+        assert "no PLY header" in reason(put(tmp_path, "a.ply", content[: body // 2]))
+
+    @pytest.mark.parametrize(
+        ("header", "why"),
+        [
+            (b"plywood\nend_header\n", "no PLY header"),
+            (b"ply\nformat binary_middle 1.0\nend_header\n", "unknown PLY format 'binary_middle'"),
+            (b"ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n0\n", "quad"),
+            (b"ply\nformat ascii 1.0\nend_header\n", "no vertices"),
+            (b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+             b"element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0\n", "triangle strips"),
+            (b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+             b"end_header\n0 0 zero\n", "zero"),
+        ],
+    )  # fmt: skip
+    def test_a_broken_header_or_body_is_the_reason(self, tmp_path, header, why):
+        assert why in reason(put(tmp_path, "a.ply", header))
+
+
+class TestOff:
+    @pytest.mark.parametrize(
+        "content",
+        [
+            b"OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n",
+            b"OFF4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n",
+            b"# who made it\n\nOFF 4 1 0 # counts\n\n0 0 0\n1 0 0\r\n1 1 0\n# half way\n0 1 0\n4 0 1 2 3 255 0 0\n",
+            b"COFF\n4 1 0\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n1 1 0 1 1 1 1\n0 1 0 1 1 1 1\n4 0 1 2 3\n",
+            b"STCNOFF\n4 1\n0 0 0 9 9\n1 0 0 9 9\n1 1 0 9 9\n0 1 0 9 9\n4 0 1 2 3\n",
+        ],
+    )
+    def test_its_kinds(self, tmp_path, content):
+        square = [[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]]
+        assert triangles(put(tmp_path, "a.off", content)).tolist() == square
+
+    @pytest.mark.parametrize(
+        ("content", "why"),
+        [
+            (b"solid\n", "does not begin with OFF"),
+            (b"4OFF\n1 1 0\n", "does not begin with OFF"),
+            (b"OFF BINARY\n\0\0", "binary OFF"),
+            (b"OFF\n", "broken"),
+            (b"OFF\n4 2 0\n0 0 0\n", "cut short: 4 vertices and 2 faces announced"),
+            (b"OFF\n3 1 0\n0 0 0\n1 0 0\n1 1\n3 0 1 2\n", "broken"),
+            (b"OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 3\n", "point outside its 3 vertices"),
+            (b"OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n4 0 1 2\n", "broken"),
+        ],
+    )
+    def test_a_broken_file_is_the_reason(self, tmp_path, content, why):
+        assert why in reason(put(tmp_path, "a.off", content))
+
+
+class TestReasons:
+    @pytest.mark.parametrize("kind", EXTENSIONS)
+    def test_noise_an_empty_file_a_pointer_and_no_file_are_reasons_for_every_kind(self, tmp_path, kind):
+        noise = np.random.default_rng(0).bytes(3000)
+        assert reason(put(tmp_path, f"noise{kind}", noise))
+        assert reason(put(tmp_path, f"text{kind}", b"<!DOCTYPE html>\n<html></html>\n"))
+        assert reason(put(tmp_path, f"empty{kind}", b"")) == "the file is empty"
+        assert "git lfs pull" in reason(
+            put(tmp_path, f"lfs{kind}", b"version https://git-lfs.github.com/spec/v1\noid x\n")
+        )
+        assert reason(tmp_path / f"none{kind}") == "no such file or directory"
+
+    @pytest.mark.parametrize("kind", ["stl", "glb", "3mf"])
+    def test_a_file_cut_in_half(self, tmp_path, kind):
+        content = trimesh.creation.icosphere(2).export(file_type=kind)
+        assert "broken" in reason(put(tmp_path, f"a.{kind}", content[: len(content) // 2]))
+
+    @pytest.mark.parametrize("kind", ["ply", "glb"])
+    def test_point_clouds(self, tmp_path, kind):
+        content = trimesh.PointCloud(VERTICES).scene().export(file_type="glb")
+        if kind == "ply":
+            content = trimesh.PointCloud(VERTICES).export(file_type="ply")
+        assert reason(put(tmp_path, f"a.{kind}", content)) == "no triangles, only points or lines"
+
+    def test_lines(self, tmp_path):
+        path = trimesh.load_path(VERTICES[:3])
+        assert (
+            reason(put(tmp_path, "a.glb", path.scene().export(file_type="glb"))) == "no triangles, only points or lines"
+        )
+        assert reason(put(tmp_path, "a.obj", SQUARE + b"l 1 2 3\n")) == "no triangles, only points or lines"
+
+    def test_nothing_at_all(self, tmp_path):
+        assert reason(put(tmp_path, "a.obj", b"# nothing\n")) == "it holds no triangles"
+        assert reason(put(tmp_path, "a.stl", bytes(84))) == "it holds no triangles"
+        assert reason(put(tmp_path, "a.gltf", b'{"asset": {"version": "2.0"}}')) == "it holds no triangles"
+
+    @pytest.mark.parametrize(
+        ("vertices", "why"),
+        [
+            (b"v 1 1 1\nv 1 1 1\nv 1 1 1\n", "all its triangles lie at one point"),
+            (b"v 0 0 0\nv 1 0 0\nv 2 0 0\n", "its triangles have no area"),
+            (b"v 0 0 0\nv nan 0 0\nv 2 0 0\n", "no triangle has finite corners"),
+            (b"v 1e308 0 0\nv -1e308 0 0\nv 0 1 0\n", "too large to measure"),
+        ],
+    )
+    def test_triangles_that_cannot_be_seen_or_measured(self, tmp_path, vertices, why):
+        assert why in reason(put(tmp_path, "a.obj", vertices + b"f 1 2 3\n"))
+
+    def test_a_sheet_without_thickness_is_fine(self, tmp_path):
+        assert len(triangles(put(tmp_path, "a.obj", SQUARE + b"f 1 2 3 4\nf 4 3 2 1\n"))) == 4
+
+    @pytest.mark.parametrize("kind", ["gltf", "glb"])
+    def test_compressed_gltf_is_refused_rather_than_misread(self, tmp_path, kind):
+        header = {"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"]}
+        text = json.dumps(header).encode()
+        binary = struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
+        path = put(tmp_path, f"a.{kind}", binary if kind == "glb" else text)
+        assert reason(path) == "compressed with KHR_draco_mesh_compression; save it without compression"
+
+    def test_another_kind_of_file(self, tmp_path):
+        assert ".obj" in reason(put(tmp_path, "a.fbx", b"x"))

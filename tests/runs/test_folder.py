@@ -1,0 +1,83 @@
+import json
+import os
+import subprocess
+import sys
+import time
+
+import pytest
+
+from shapewright.runs.folder import RunError, cache_folder, check_writable, new_folder, next_run, read_record, runs
+
+
+def write_run(folder):
+    with new_folder(folder) as partial:
+        (partial / "iteration.json").write_text(json.dumps({"format": 1, "name": folder.name}))
+    return folder
+
+
+def test_runs_are_numbered_after_the_greatest(tmp_path):
+    assert next_run(tmp_path).name == "001"
+    write_run(tmp_path / "007")
+    write_run(tmp_path / "by-name")
+    assert next_run(tmp_path).name == "008"
+    assert [run.name for run in runs(tmp_path)] == ["007", "by-name"]
+
+
+def test_a_run_is_never_overwritten(tmp_path):
+    folder = write_run(tmp_path / "001")
+    with pytest.raises(RunError, match="never overwritten"):
+        write_run(folder)
+    with pytest.raises(RunError, match="never overwritten"):
+        check_writable(folder)
+    assert read_record(folder)["name"] == "001"
+
+
+def test_a_failure_leaves_nothing(tmp_path):
+    with pytest.raises(RunError, match="No space left on device"), new_folder(tmp_path / "001") as partial:
+        (partial / "half").write_text("x")
+        raise OSError(28, "No space left on device")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_kill_leaves_no_run(tmp_path):
+    script = (
+        "import os, signal, sys; from pathlib import Path; from shapewright.workspace import new_folder\n"
+        "with new_folder(Path(sys.argv[1])) as partial:\n"
+        "    (partial / 'iteration.json').write_text('{}')\n"
+        "    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    killed = subprocess.run([sys.executable, "-c", script, tmp_path / "001"])
+    assert killed.returncode == -9
+    assert not (tmp_path / "001").exists() and runs(tmp_path) == []
+    leftover = next(tmp_path.glob(".001.*.partial"))
+    old = time.time() - 7200
+    os.utime(leftover, (old, old))
+    write_run(tmp_path / "001")
+    assert [path.name for path in tmp_path.iterdir()] == ["001"]
+
+
+def test_records_that_cannot_be_read_say_why(tmp_path):
+    with pytest.raises(RunError, match="no run here"):
+        read_record(tmp_path)
+    (tmp_path / "iteration.json").write_text("{")
+    with pytest.raises(RunError, match="cannot be read"):
+        read_record(tmp_path)
+    (tmp_path / "iteration.json").write_text('{"format": 99}')
+    with pytest.raises(RunError, match="format 99"):
+        read_record(tmp_path)
+
+
+def test_a_place_that_cannot_be_written_is_said_before_the_work(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(RunError, match="cannot be written here"):
+        check_writable(tmp_path / "file" / "001")
+    with pytest.raises(RunError, match="something here already"):
+        check_writable(tmp_path / "file")
+
+
+def test_the_cache_is_where_the_environment_says(tmp_path, monkeypatch):
+    monkeypatch.setenv("SHAPEWRIGHT_CACHE", str(tmp_path / "cache"))
+    assert cache_folder() == tmp_path / "cache" and (tmp_path / "cache").is_dir()
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("SHAPEWRIGHT_CACHE", str(tmp_path / "file" / "cache"))
+    assert cache_folder() is None

@@ -1,0 +1,105 @@
+"""Files of shapes: what readers other than ours, and ours, find in them."""
+
+import json
+import struct
+
+import numpy as np
+import pytest
+import shapely
+import trimesh
+
+from shapewright import Collection, Drawing, Mesh
+from shapewright.modelling.solids import box, cylinder
+from shapewright.shapes.files import encode, glb, obj, ply, svg
+
+EXTRAS = {"procedure": "stool", "version": "1.2.3", "seed": 7, "parameters": {"height": 0.45, "round": True, "legs": 3}}
+
+
+@pytest.fixture(scope="module")
+def stool():
+    seat = cylinder((1, 0.1, 1), at=(0, 0.5, 0)).label("round seat")
+    return (seat | box((0.1, 0.6, 0.1), at=(0, 0.2, 0)).label("leg") | box(0.1, at=(0.4, 0.6, 0))).mesh()
+
+
+def document(data):
+    length = struct.unpack("<I", data[12:16])[0]
+    return json.loads(data[20 : 20 + length])
+
+
+def test_glb_is_valid_and_has_one_node_per_label(stool):
+    data = glb(stool, EXTRAS)
+    magic, version, length = struct.unpack("<4sII", data[:12])
+    assert (magic, version, length) == (b"glTF", 2, len(data)) and len(data) % 4 == 0
+    root, *parts = document(data)["nodes"]
+    assert root["name"] == "stool" and root["extras"] == EXTRAS and root["children"] == [1, 2, 3]
+    assert [part["name"] for part in parts] == ["round seat", "leg", "unlabelled"]
+    for view in document(data)["bufferViews"]:
+        assert view["byteOffset"] % 4 == 0
+
+
+def test_other_readers_find_the_parts_of_a_glb(stool, tmp_path):
+    (tmp_path / "stool.glb").write_bytes(glb(stool, EXTRAS))
+    scene = trimesh.load(tmp_path / "stool.glb")
+    labels = np.array([label or "unlabelled" for label in stool.labels])
+    assert set(scene.geometry) == set(labels)
+    for name, part in scene.geometry.items():
+        assert len(part.faces) == (labels == name).sum()
+    np.testing.assert_allclose(scene.bounds, stool.bounds, atol=1e-7)
+    assert scene.metadata["procedure"] == "stool" and scene.metadata["parameters"]["legs"] == 3
+
+
+def test_ply_keeps_double_precision_labels_and_extras(stool):
+    data = ply(stool, EXTRAS)
+    header, body = data.split(b"end_header\n", 1)
+    assert b"comment label 0 round seat\n" in header and b"comment label 1 leg\n" in header
+    assert json.loads(header.split(b"comment extras ")[1].split(b"\n")[0]) == EXTRAS
+    vertices = np.frombuffer(body, "<f8", 3 * len(stool.vertices)).reshape(-1, 3)
+    np.testing.assert_array_equal(vertices, stool.vertices)
+    faces = np.frombuffer(body[vertices.nbytes :], dtype=[("n", "u1"), ("corners", "<i4", 3), ("label", "<i4")])
+    np.testing.assert_array_equal(faces["corners"], stool.faces)
+    np.testing.assert_array_equal(faces["label"], stool.face_labels)
+
+
+def test_obj_has_one_group_per_label(stool):
+    lines = obj(stool, EXTRAS).decode().splitlines()
+    assert json.loads(lines[0].removeprefix("# extras ")) == EXTRAS and lines[1] == "o stool"
+    vertices = np.array([line.split()[1:] for line in lines if line.startswith("v ")], dtype=float)
+    np.testing.assert_array_equal(vertices, stool.vertices)
+    assert [line for line in lines if line.startswith("g ")] == ["g round_seat", "g leg", "g unlabelled"]
+    assert sum(line.startswith("f ") for line in lines) == len(stool.faces)
+
+
+@pytest.mark.parametrize("format", ["glb", "ply", "obj", "stl", "off"])
+def test_every_format_is_read_back_as_a_collection(stool, tmp_path, format):
+    (tmp_path / f"stool.{format}").write_bytes(encode(stool, format, EXTRAS))
+    (reference,) = Collection.load(str(tmp_path))
+    assert len(reference.shape.faces) == len(stool.faces)
+    np.testing.assert_allclose(reference.shape.extent, stool.extent / stool.extent.max(), atol=1e-6)
+
+
+def test_meshes_without_labels_and_extras_are_one_part():
+    mesh = Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    assert [node["name"] for node in document(glb(mesh))["nodes"]] == ["shape", "shape"]
+    assert "extras" not in document(glb(mesh))["nodes"][0]
+    assert b"label" in ply(mesh) and b"comment" not in ply(mesh)
+    assert obj(mesh).startswith(b"o shape\n")
+
+
+def test_many_vertices_have_indices_of_four_bytes():
+    count = 70_000
+    mesh = Mesh(np.random.default_rng(0).uniform(size=(count, 3)), np.arange(count - 1).reshape(-1, 3))
+    indices = document(glb(mesh))["accessors"][1]
+    assert indices["componentType"] == 5125 and indices["count"] == count - 1
+
+
+def test_drawings_are_svg_whatever_the_format():
+    drawing = Drawing(shapely.box(0, 0, 2, 1).difference(shapely.box(0.5, 0.25, 1, 0.75)))
+    text = encode(drawing, "glb", {"procedure": "a<b"}).decode()
+    assert text.startswith("<svg ") and 'viewBox="-0.04 -1.04 2.08 1.08"' in text
+    assert '<metadata>{"procedure":"a&lt;b"}</metadata>' in text
+    assert "<metadata>" not in svg(drawing).decode()
+
+
+def test_what_json_cannot_hold_is_refused(stool):
+    with pytest.raises(ValueError, match="JSON"):
+        glb(stool, {"height": float("nan")})
