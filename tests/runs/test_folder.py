@@ -41,7 +41,7 @@ def test_a_failure_leaves_nothing(tmp_path):
 
 def test_a_kill_leaves_no_run(tmp_path):
     script = (
-        "import os, signal, sys; from pathlib import Path; from shapewright.workspace import new_folder\n"
+        "import os, signal, sys; from pathlib import Path; from shapewright.runs.folder import new_folder\n"
         "with new_folder(Path(sys.argv[1])) as partial:\n"
         "    (partial / 'iteration.json').write_text('{}')\n"
         "    os.kill(os.getpid(), signal.SIGKILL)\n"
