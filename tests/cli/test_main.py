@@ -181,7 +181,7 @@ def test_a_full_disk_is_a_message_and_leaves_nothing(project):
     limit = "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000)); "
     limit += "import signal; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
     limit += f"sys.argv = ['shapewright', 'fit', 'stool.py', 'references', *{QUICK!r}]; "
-    limit += "from shapewright.cli import main; main()"
+    limit += "from shapewright.cli.main import main; main()"
     environment = {**os.environ, "NUMBA_DISABLE_JIT": "0", "TMPDIR": str(project)}
     run = subprocess.run(
         [sys.executable, "-c", limit], cwd=project, capture_output=True, text=True, env=environment, timeout=120
