@@ -29,7 +29,7 @@ from shapewright.feedback.explanation import explain
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import Solid, box, cylinder, sphere
 from shapewright.parameters import Parameters
-from shapewright.runs.result import Result, at_limit
+from shapewright.runs.result import Result
 from shapewright.search.budgets import QUICK
 
 WHOLE = Path(__file__).parent.parent / "examples" / "tables" / "v5.py"
@@ -181,7 +181,7 @@ def made(
             path=None,
             parameters=found.parameters,
             active=space.active(found.parameters),
-            at_limit=at_limit(space, found.parameters),
+            at_limit=space.at_limit(found.parameters),
             replica=found.mesh,
             distance=found.distance,
             iou=float("nan"),

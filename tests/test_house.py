@@ -19,7 +19,6 @@ STILL_LONG = {
     "feedback/writing/edit.py",
     "modelling/grammar/boxes.py",
     "modelling/grammar/derivation.py",
-    "parameters.py",
     "studio/server/app.py",
     "studio/session/session.py",
 }

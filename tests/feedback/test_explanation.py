@@ -11,7 +11,7 @@ from shapewright.feedback.causes.longer_search import Searcher
 from shapewright.feedback.explanation import explain
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import box
-from shapewright.runs.result import Result, at_limit
+from shapewright.runs.result import Result
 from shapewright.shapes import concatenate
 
 SOURCE = """
@@ -59,7 +59,7 @@ def iteration_of(procedure, references, vectors, settings):
             path=None,
             parameters=best.parameters,
             active=procedure.space.active(best.parameters),
-            at_limit=at_limit(procedure.space, best.parameters),
+            at_limit=procedure.space.at_limit(best.parameters),
             replica=best.mesh,
             distance=best.distance,
             iou=0.5,

@@ -23,16 +23,15 @@ from shapewright.fitting.facing import quarter_turns
 from shapewright.fitting.learning import Lesson, learn, learn_more, limits_of
 from shapewright.judging.judge import Judge, judge_of
 from shapewright.judging.picture_judge import PictureJudge
-from shapewright.parameters import Parameters, ParameterSpace, Scalar
+from shapewright.parameters import Parameters, ParameterSpace, Scalar, to_record
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.lookup import nearest
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
-from shapewright.records import to_record
 from shapewright.references import Collection
 from shapewright.rendering.raster import render
 from shapewright.runs.iteration import Iteration, draw_pictures
-from shapewright.runs.result import Result, at_limit
+from shapewright.runs.result import Result
 from shapewright.search.search import refine
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh
@@ -239,7 +238,7 @@ def _results(
             path=reference.path,
             parameters=build.parameters,
             active=procedure.space.active(build.parameters),
-            at_limit=at_limit(procedure.space, build.parameters) if build.shape else (),
+            at_limit=procedure.space.at_limit(build.parameters) if build.shape else (),
             replica=build.shape,
             distance=float(distance),
             iou=float(iou),

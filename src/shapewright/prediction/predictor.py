@@ -12,12 +12,11 @@ import torch
 from numpy.typing import NDArray
 from torch import nn
 
-from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.parameters import Parameters, ParameterSpace, from_record, to_record
 from shapewright.prediction.devices import torch_threads
 from shapewright.prediction.inference import Inference, Metrics, infer
 from shapewright.prediction.network import CompactNetwork, make_network
 from shapewright.prediction.training import Epoch
-from shapewright.records import from_record, to_record
 from shapewright.rendering.cameras import PAGE, Camera
 from shapewright.rendering.raster import render
 from shapewright.shapes import Drawing, Shape

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from shapewright.parameters import Parameters, ParameterSpace, Scalar
+from shapewright.parameters import Parameters
 from shapewright.shapes import Mesh, Shape
 
 
@@ -39,13 +39,6 @@ class Result:
     reference: Shape | None
     error: str | None = None
     depth: float = math.nan
-
-
-def at_limit(space: ParameterSpace, parameters: Parameters, margin: float = 0.02) -> tuple[str, ...]:
-    """Names of the active scalars within ``margin`` of an end of their Range: perhaps the Range ends too soon."""
-    active = space.active(parameters)
-    scalars = [p for p in space if isinstance(p, Scalar) and p.name in active]
-    return tuple(p.name for p in scalars if not margin < p.encode(parameters[p.name]) < 1.0 - margin)
 
 
 def to_record(result: Result, slug: str) -> dict[str, Any]:

@@ -8,10 +8,9 @@ from typing import Any, Literal
 
 from shapewright.feedback.causes.leaning import Leaning
 from shapewright.feedback.causes.longer_search import Found
-from shapewright.feedback.causes.ranges import Wish, beyond
 from shapewright.feedback.causes.structure import differences
 from shapewright.feedback.surfaces.residuals import Residuals
-from shapewright.parameters import ParameterSpace, Scalar
+from shapewright.parameters import ParameterSpace, Scalar, Side
 
 Kind = Literal[
     "out of range",
@@ -123,14 +122,14 @@ def _overlooked(space: ParameterSpace, before: Found, found: Found) -> Cause:
 
 
 def _ranges(space: ParameterSpace, threshold: float, inside: Found, outside: Found) -> tuple[Cause, ...]:
-    wishes = beyond(space, outside.parameters)
+    excesses = space.outside(outside.parameters)
     enough = outside.distance <= threshold
-    if not wishes or not (enough or outside.distance < (1.0 - _HELPS) * inside.distance):
+    if not excesses or not (enough or outside.distance < (1.0 - _HELPS) * inside.distance):
         return ()
-    how = ", ".join(f"{wish.parameter} at {wish.value:.3g}, Range {_ends(wish)} at {wish.end:.4g}" for wish in wishes)
+    how = ", ".join(f"{e.parameter} at {e.value:.3g}, Range {_ends(e.side)} at {e.end:.4g}" for e in excesses)
     after = f"the distance would be {outside.distance:.2f} instead of {inside.distance:.2f}"
     evidence = {
-        "wishes": [{"parameter": w.parameter, "value": w.value, "end": w.end, "side": w.side} for w in wishes],
+        "wishes": [{"parameter": e.parameter, "value": e.value, "end": e.end, "side": e.side} for e in excesses],
         "parameters": outside.parameters,
         "distance": outside.distance,
         "before": inside.distance,
@@ -139,8 +138,8 @@ def _ranges(space: ParameterSpace, threshold: float, inside: Found, outside: Fou
     return (Cause("out of range", f"{how}: {after}", evidence),)
 
 
-def _ends(wish: Wish) -> str:
-    return "starts" if wish.side == "low" else "ends"
+def _ends(side: Side) -> str:
+    return "starts" if side == "low" else "ends"
 
 
 def _strange(isolation: float) -> Cause:

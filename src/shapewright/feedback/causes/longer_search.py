@@ -9,11 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
-from shapewright.feedback.causes.ranges import End, inside, limits, pressed, widened
-from shapewright.feedback.causes.ranges import beyond as wishes_of
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.judging.judge import Judge
-from shapewright.parameters import Integer, Parameters, ParameterSpace, Scalar
+from shapewright.parameters import End, Integer, Parameters, ParameterSpace, Scalar
 from shapewright.prediction.lookup import nearest
 from shapewright.rendering.raster import render
 from shapewright.search.budgets import Budget, Round
@@ -130,7 +128,7 @@ class Searcher:
 
         A parameter lies outside its Range only where that pays.
         """
-        best, ends = list(known), [pressed(self.space, found.parameters) for found in known]
+        best, ends = list(known), [self.space.pressed(found.parameters) for found in known]
         todo = [i for i, free in enumerate(ends) if free]
         for _ in range(2):
             if not todo:
@@ -139,7 +137,7 @@ class Searcher:
             again = []
             for i, found in zip(todo, more, strict=True):
                 best[i] = found
-                free = ends[i] | pressed(self.space, found.parameters)
+                free = ends[i] | self.space.pressed(found.parameters)
                 if free != ends[i] and found.distance > self.threshold:
                     again.append(i)
                 ends[i] = free
@@ -152,7 +150,7 @@ class Searcher:
         return [_found(*each) for each in zip(builds, *self.judge.nearest(builds, rows), strict=True)]
 
     def _wide_search(self, rows: Sequence[int], known: Sequence[Found], ends: Sequence[set[End]]) -> list[Found]:
-        wide = widened(self.space)
+        wide = self.space.widened()
         vectors = refine(
             wide,
             [_guess(wide, column, known, ends) for column in range(len(wide))],
@@ -161,7 +159,7 @@ class Searcher:
             self._within(_with_integers(WIDE, self.space, ends), 0.4, len(rows)),
             self.seed,
             [found.parameters for found in known],
-            within=limits(self.space, wide, ends),
+            within=self.space.limits(wide, ends),
             spread=0.06,
             enough=_ENOUGH * _CLOSE * self.judge.goal,
         )
@@ -173,7 +171,7 @@ class Searcher:
         names = [name for name in self.space.names if any(_outside(self.space, found, name) for found in best)]
         for name in names:
             some = [i for i, found in enumerate(best) if _outside(self.space, found, name)]
-            tried = [inside(self.space, best[i].parameters, [name]) for i in some]
+            tried = [self.space.clipped(best[i].parameters, [name]) for i in some]
             for i, found in zip(some, self.measured([rows[i] for i in some], tried), strict=True):
                 if found and self._as_good(found.distance, best[i].distance, known[i].distance):
                     best[i] = found
@@ -228,7 +226,7 @@ def _found(build: Build, distance: float, field: int) -> Found | None:
 
 
 def _outside(space: ParameterSpace, found: Found, name: str) -> bool:
-    return any(wish.parameter == name for wish in wishes_of(space, found.parameters))
+    return any(excess.parameter == name for excess in space.outside(found.parameters))
 
 
 def _with_integers(budget: Budget, space: ParameterSpace, ends: Sequence[set[End]]) -> Budget:

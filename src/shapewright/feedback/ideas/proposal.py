@@ -9,11 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
-from shapewright.feedback.causes.ranges import End, pressed
 from shapewright.feedback.ideas.hypotheses import Hypothesis
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.writing.wording import Rule
-from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.parameters import End, Parameters, ParameterSpace
 from shapewright.shapes import Mesh
 
 Ranges = Mapping[str, tuple[float, float, float]]
@@ -46,7 +45,7 @@ class Misfit:
 
     def pressed(self, space: ParameterSpace) -> set[End]:
         """The ends of Ranges that the nearest parameters rest on."""
-        return pressed(space, self.nearest or self.parameters)
+        return space.pressed(self.nearest or self.parameters)
 
     def way(self, cost: float) -> float:
         """How much of the way from the nearest shape to a compatible one another has come, 0 to 1."""

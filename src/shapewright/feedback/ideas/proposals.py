@@ -107,13 +107,10 @@ def _steps(parameter: Scalar, low: float, high: float) -> str | None:
 
 def _long(parameter: Parameter, sides: set[str]) -> tuple[float, float, float]:
     assert isinstance(parameter, Scalar | Integer)
-    span = parameter.high - parameter.low
-    low = parameter.low - span
-    if parameter.low >= 0:
-        low = max(low, parameter.low / 4.0 if isinstance(parameter, Scalar) else min(parameter.low, 1))
+    longer = parameter.widened()
     return (
-        low if "low" in sides else parameter.low,
-        parameter.high + (2.0 * span if isinstance(parameter, Scalar) else span) if "high" in sides else parameter.high,
+        longer.low if "low" in sides else parameter.low,
+        longer.high if "high" in sides else parameter.high,
         parameter.default,
     )
 

@@ -16,10 +16,8 @@ from pathlib import Path
 from shapewright.building.clock import COMPILING, TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.building.worker import attend, build, limit_memory
-from shapewright.parameters import Parameters
+from shapewright.parameters import Parameters, to_record
 from shapewright.procedures import Procedure, ProcedureError, author_line, load_procedure
-from shapewright.records import to_record
-from shapewright.runs.result import at_limit
 from shapewright.shapes import Mesh
 from shapewright.studio.bench.built import Built, Version
 
@@ -40,7 +38,7 @@ def try_build(
             if isinstance(made.shape, Mesh) and len(made.shape.faces) > MOST_TRIANGLES:
                 much = f"{len(made.shape.faces)} triangles are more than the studio shows ({MOST_TRIANGLES})"
                 return Built(Build(parameters, None, Failure("no shape", much), made.seconds))
-            return Built(made, procedure.space.active(parameters), at_limit(procedure.space, parameters))
+            return Built(made, procedure.space.active(parameters), procedure.space.at_limit(parameters))
     except TimeLimit as error:
         return Built(Build(dict(values), None, Failure("time", author_line(error, procedure.path))))
     except ValueError as error:  # a `when` failed

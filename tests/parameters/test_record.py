@@ -2,8 +2,7 @@ import json
 
 import pytest
 
-from shapewright.parameters import Binary, Choice, Integer, Scalar
-from shapewright.records import from_record, to_record
+from shapewright.parameters import Binary, Choice, Integer, Scalar, from_record, to_record
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,11 @@
-"""Parameters as plain values, for files."""
+"""Parameters as plain values, for files. A parameter's ``when`` is code: a record cannot keep it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from shapewright.parameters import Binary, Choice, Integer, Parameter, Scalar
+from shapewright.parameters.kinds import Binary, Choice, Integer, Parameter, Scalar
 
 _KINDS: Mapping[str, Callable[..., Parameter]] = {
     "scalar": Scalar,
@@ -17,13 +17,13 @@ _FIELDS = ("name", "low", "high", "steps", "options", "default")
 
 
 def to_record(parameter: Parameter) -> dict[str, Any]:
-    """A parameter without its ``when``: kind and _FIELDS, None where its kind has no such field."""
+    """The kind and _FIELDS of a parameter, None where its kind has no such field; without its ``when``."""
     values = {name: getattr(parameter, name, None) for name in _FIELDS}
     plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
     return {"kind": type(parameter).__name__.lower(), **plain}
 
 
 def from_record(record: Mapping[str, Any]) -> Parameter:
-    """The inverse of ``to_record``."""
+    """The inverse of ``to_record``: the parameter matters always, since no ``when`` is recorded."""
     given = {name: record[name] for name in _FIELDS if record.get(name) is not None}
     return _KINDS[record["kind"]](**{k: tuple(v) if isinstance(v, list) else v for k, v in given.items()})

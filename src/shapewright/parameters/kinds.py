@@ -1,33 +1,34 @@
-"""The parameter space of a procedure: four kinds of parameters and the ordered set of them.
+"""Four kinds of parameters: scalar, integer, choice and binary.
 
 A value lives in two forms: in the procedure's own units, and *encoded*: a scalar normalised to [0, 1], any other kind
-as the index of its class (METHOD: paper section 4). Every kind here is a small frozen value class with the same verbs.
+as the index of its class (METHOD: paper section 4). Every kind here is a small frozen value class with the same verbs;
+the numbers, scalar and integer, also say which end of their Range a value rests on and what a longer Range is.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from types import SimpleNamespace
-from typing import Any, TypeAlias
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 Value: TypeAlias = float | int | bool | str
 Parameters: TypeAlias = dict[str, Value]
 Condition: TypeAlias = Callable[[Any], bool]
+Side: TypeAlias = Literal["low", "high"]
 
-_ENUMERABLE = 20_000
-_DRAWS_PER_VECTOR = 200
+_BEYOND = 0.01
+"""Share of its Range by which a scalar has to pass an end before it counts as outside. Chosen by hand."""
 
 
 @dataclass(frozen=True)
 class Range:
     """Limits of a number in a procedure's signature: ``Annotated[float, Range(0.5, 1.0, steps=8)]``.
 
-    low, high: inclusive ends, in the procedure's own units.
+    low: the lower end, inclusive, in the procedure's own units.
+    high: the upper end, inclusive, in the procedure's own units.
     steps: how many evenly spaced values a scalar is sampled at, or the values themselves (``steps=(0.9, 1.4, 1.6)``);
         without it a scalar is sampled continuously. Integers take every value of their range.
     when: says whether the parameter matters, given all parameters as attributes: ``when=lambda p: p.shelves > 0``.
@@ -92,10 +93,31 @@ class Scalar:
         """The value nearest to an encoded one, inside the range."""
         return self.low + min(max(float(encoded), 0.0), 1.0) * (self.high - self.low)
 
+    def end_at(self, value: Value, margin: float) -> Side | None:
+        """The end of the Range that a value rests on or has passed. margin: a share of the Range, below 0.5."""
+        at = self.encode(value)
+        return "low" if at <= margin else "high" if at >= 1.0 - margin else None
+
+    def end_passed(self, value: Value) -> Side | None:
+        """The end of the Range that a value has passed, by more than rounding."""
+        margin = _BEYOND * (self.high - self.low)
+        return "low" if float(value) < self.low - margin else "high" if float(value) > self.high + margin else None
+
+    def widened(self) -> Scalar:
+        """The same with a longer Range: by once its length below, twice above; from 0 on it does not come below 0."""
+        span = self.high - self.low
+        low = self.low - span
+        if self.low >= 0.0:
+            low = max(low, self.low / 4.0)
+        return replace(self, low=low, high=self.high + 2.0 * span, steps=None)
+
 
 @dataclass(frozen=True)
 class Integer:
-    """A whole number in [low, high]; encoded as its offset from low."""
+    """A whole number in [low, high]; encoded as its offset from low.
+
+    It has no margins: a value rests on an end that it equals, and lies outside from the next whole number on.
+    """
 
     name: str
     low: int
@@ -124,6 +146,23 @@ class Integer:
 
     def decode(self, encoded: float) -> int:
         return self.low + min(max(round(float(encoded)), 0), self.classes - 1)
+
+    def end_at(self, value: Value, margin: float = 0.0) -> Side | None:
+        """The end of the Range that a value equals or has passed. margin: of scalars; it changes nothing here."""
+        return "low" if float(value) <= self.low else "high" if float(value) >= self.high else None
+
+    def end_passed(self, value: Value) -> Side | None:
+        """The end of the Range that a value has passed."""
+        return "low" if float(value) < self.low else "high" if float(value) > self.high else None
+
+    def widened(self, least: int = 1) -> Integer:
+        """The same with a Range longer by its length to either side; from 0 on it does not come below 0, nor 1 to 0.
+
+        least: how many whole numbers are added to a side, at least.
+        """
+        span = max(self.high - self.low, least)
+        low = self.low - span if self.low < 0 else max(self.low - span, min(self.low, 1))
+        return replace(self, low=low, high=self.high + span)
 
 
 @dataclass(frozen=True)
@@ -193,110 +232,3 @@ Parameter: TypeAlias = Scalar | Integer | Choice | Binary
 def _check_default(parameter: Parameter, inside: bool) -> None:
     if not inside:
         raise ValueError(f"{parameter.name}: the default {parameter.default!r} lies outside what the parameter allows")
-
-
-@dataclass(frozen=True)
-class ParameterSpace:
-    """The ordered parameters of a procedure: iterate, index by name, sample, encode, decode."""
-
-    parameters: tuple[Parameter, ...]
-
-    def __len__(self) -> int:
-        return len(self.parameters)
-
-    def __iter__(self) -> Iterator[Parameter]:
-        return iter(self.parameters)
-
-    def __getitem__(self, name: str) -> Parameter:
-        for parameter in self.parameters:
-            if parameter.name == name:
-                return parameter
-        raise KeyError(f"no parameter {name!r}; there are {', '.join(self.names)}")
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        return tuple(parameter.name for parameter in self.parameters)
-
-    @property
-    def defaults(self) -> Parameters:
-        return {parameter.name: parameter.default for parameter in self.parameters}
-
-    @property
-    def scalars(self) -> NDArray[np.bool_]:
-        """(P,): which parameters are scalars."""
-        return np.array([isinstance(parameter, Scalar) for parameter in self.parameters], dtype=bool)
-
-    @property
-    def combinations(self) -> float:
-        """Number of vectors that can be sampled: a whole number, or infinity when a scalar is continuous."""
-        counts = [len(parameter.levels) if parameter.levels is not None else math.inf for parameter in self.parameters]
-        return math.prod(counts)
-
-    def active(self, values: Mapping[str, Value]) -> tuple[str, ...]:
-        """Names of the parameters that matter for these values, by their ``when``."""
-        namespace = SimpleNamespace(**values)
-        return tuple(p.name for p in self.parameters if p.when is None or _holds(p, namespace))
-
-    def canonical(self, values: Mapping[str, Value]) -> Parameters:
-        """The values with every inactive parameter at its default, so that equal shapes have equal parameters."""
-        active = set(self.active(values))
-        return {p.name: values[p.name] if p.name in active else p.default for p in self.parameters}
-
-    def carry(self, values: Mapping[str, Value], otherwise: Mapping[str, Value] | None = None) -> Parameters:
-        """Values of another version of the procedure, for this one: what still exists stays, at the nearest value.
-
-        A parameter that is new, or whose value is no longer an option, is as in ``otherwise``, by default its default.
-        """
-        fallback = {**self.defaults, **(otherwise or {})}
-        return self.canonical({p.name: _nearest(p, values.get(p.name), fallback[p.name]) for p in self.parameters})
-
-    def sample(self, count: int, seed: int = 0) -> list[Parameters]:
-        """Draw ``count`` different vectors at random; all of them, shuffled, when the space holds no more.
-
-        Inactive parameters are at their default, so no two vectors mean the same shape. The product of the steps is
-        never materialised, unless it is small.
-        """
-        if count < 0:
-            raise ValueError(f"cannot sample {count} vectors")
-        rng = np.random.default_rng(seed)
-        if self.combinations <= max(_ENUMERABLE, 4 * count):
-            every = self._enumerate()
-            return [every[i] for i in rng.permutation(len(every))[:count]]
-        drawn: dict[tuple[Value, ...], Parameters] = {}
-        for _ in range(_DRAWS_PER_VECTOR * count):
-            if len(drawn) == count:
-                break
-            vector = self.canonical({parameter.name: parameter.sample(rng) for parameter in self.parameters})
-            drawn.setdefault(tuple(vector.values()), vector)
-        return list(drawn.values())
-
-    def encode(self, values: Mapping[str, Value]) -> NDArray[np.float64]:
-        """Parameters in their own units to a vector (P,): scalars in [0, 1], other kinds as class indices."""
-        return np.array([parameter.encode(values[parameter.name]) for parameter in self.parameters], dtype=np.float64)
-
-    def decode(self, encoded: Sequence[float] | NDArray[np.floating[Any]]) -> Parameters:
-        """The inverse of ``encode``; values outside the space are moved to its nearest end."""
-        return {p.name: p.decode(float(e)) for p, e in zip(self.parameters, encoded, strict=True)}
-
-    def _enumerate(self) -> list[Parameters]:
-        vectors: list[Parameters] = [{}]
-        for parameter in self.parameters:
-            vectors = [{**vector, parameter.name: level} for vector in vectors for level in parameter.levels or ()]
-        canonical = (self.canonical(vector) for vector in vectors)
-        return list({tuple(vector.values()): vector for vector in canonical}.values())
-
-
-def _nearest(parameter: Parameter, value: Value | None, otherwise: Value) -> Value:
-    if isinstance(parameter, Scalar | Integer):
-        if isinstance(value, int | float) and not isinstance(value, bool):
-            return parameter.decode(parameter.encode(value))
-        return otherwise
-    return value if value in (parameter.levels or ()) and value is not None else otherwise
-
-
-def _holds(parameter: Parameter, namespace: SimpleNamespace) -> bool:
-    assert parameter.when is not None
-    try:
-        return bool(parameter.when(namespace))
-    except Exception as error:
-        raise ValueError(f"{parameter.name}: its when= failed: {type(error).__name__}: {error}") from error

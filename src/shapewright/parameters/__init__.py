@@ -1,0 +1,36 @@
+"""Parameters: four kinds, the ordered space of them, and their form in files."""
+
+from shapewright.parameters.kinds import (
+    Binary,
+    Choice,
+    Condition,
+    Integer,
+    Parameter,
+    Parameters,
+    Range,
+    Scalar,
+    Side,
+    Value,
+    When,
+)
+from shapewright.parameters.record import from_record, to_record
+from shapewright.parameters.space import End, Excess, ParameterSpace
+
+__all__ = [
+    "Binary",
+    "Choice",
+    "Condition",
+    "End",
+    "Excess",
+    "Integer",
+    "Parameter",
+    "ParameterSpace",
+    "Parameters",
+    "Range",
+    "Scalar",
+    "Side",
+    "Value",
+    "When",
+    "from_record",
+    "to_record",
+]

@@ -1,0 +1,199 @@
+"""The parameter space of a procedure: the ordered set of its parameters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shapewright.parameters.kinds import Integer, Parameter, Parameters, Scalar, Side, Value
+
+End: TypeAlias = tuple[str, Side]
+"""The name of a parameter and an end of its Range."""
+
+_ENUMERABLE = 20_000
+"""Vectors that are listed one by one to sample from; that takes well under a second."""
+_DRAWS_PER_VECTOR = 200
+"""Draws for each vector that is asked for before sampling stops: enough unless few different shapes are left."""
+_SHOWN, _SEARCHED = 0.02, 0.03
+"""Shares of its Range within which a scalar rests on an end. Chosen by hand. The first is for what the author is shown:
+a false alarm costs attention. The second is for a search that may pass the end: a false one costs a few shapes only."""
+
+
+@dataclass(frozen=True)
+class Excess:
+    """A value outside a parameter's Range.
+
+    parameter: its name.
+    value: in the procedure's own units.
+    end: of the Range, that the value has passed.
+    side: which end that is.
+    """
+
+    parameter: str
+    value: float
+    end: float
+    side: Side
+
+
+@dataclass(frozen=True)
+class ParameterSpace:
+    """The ordered parameters of a procedure: iterate, index by name, sample, encode, decode."""
+
+    parameters: tuple[Parameter, ...]
+
+    def __len__(self) -> int:
+        return len(self.parameters)
+
+    def __iter__(self) -> Iterator[Parameter]:
+        return iter(self.parameters)
+
+    def __getitem__(self, name: str) -> Parameter:
+        for parameter in self.parameters:
+            if parameter.name == name:
+                return parameter
+        raise KeyError(f"no parameter {name!r}; there are {', '.join(self.names)}")
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(parameter.name for parameter in self.parameters)
+
+    @property
+    def defaults(self) -> Parameters:
+        return {parameter.name: parameter.default for parameter in self.parameters}
+
+    @property
+    def scalars(self) -> NDArray[np.bool_]:
+        """(P,): which parameters are scalars."""
+        return np.array([isinstance(parameter, Scalar) for parameter in self.parameters], dtype=bool)
+
+    @property
+    def combinations(self) -> float:
+        """Number of vectors that can be sampled: a whole number, or infinity when a scalar is continuous."""
+        counts = [len(parameter.levels) if parameter.levels is not None else math.inf for parameter in self.parameters]
+        return math.prod(counts)
+
+    def active(self, values: Mapping[str, Value]) -> tuple[str, ...]:
+        """Names of the parameters that matter for these values, by their ``when``."""
+        namespace = SimpleNamespace(**values)
+        return tuple(p.name for p in self.parameters if p.when is None or _holds(p, namespace))
+
+    def canonical(self, values: Mapping[str, Value]) -> Parameters:
+        """The values with every inactive parameter at its default, so that equal shapes have equal parameters."""
+        active = set(self.active(values))
+        return {p.name: values[p.name] if p.name in active else p.default for p in self.parameters}
+
+    def carry(self, values: Mapping[str, Value], otherwise: Mapping[str, Value] | None = None) -> Parameters:
+        """Values of another version of the procedure, for this one: what still exists stays, at the nearest value.
+
+        A parameter that is new, or whose value is no longer an option, is as in ``otherwise``, by default its default.
+        """
+        fallback = {**self.defaults, **(otherwise or {})}
+        return self.canonical({p.name: _nearest(p, values.get(p.name), fallback[p.name]) for p in self.parameters})
+
+    def sample(self, count: int, seed: int = 0) -> list[Parameters]:
+        """Draw ``count`` different vectors at random; all of them, shuffled, when the space holds no more.
+
+        Inactive parameters are at their default, so no two vectors mean the same shape. The product of the steps is
+        never materialised, unless it is small.
+        """
+        if count < 0:
+            raise ValueError(f"cannot sample {count} vectors")
+        rng = np.random.default_rng(seed)
+        if self.combinations <= max(_ENUMERABLE, 4 * count):
+            every = self._enumerate()
+            return [every[i] for i in rng.permutation(len(every))[:count]]
+        drawn: dict[tuple[Value, ...], Parameters] = {}
+        for _ in range(_DRAWS_PER_VECTOR * count):
+            if len(drawn) == count:
+                break
+            vector = self.canonical({parameter.name: parameter.sample(rng) for parameter in self.parameters})
+            drawn.setdefault(tuple(vector.values()), vector)
+        return list(drawn.values())
+
+    def encode(self, values: Mapping[str, Value]) -> NDArray[np.float64]:
+        """Parameters in their own units to a vector (P,): scalars in [0, 1], other kinds as class indices."""
+        return np.array([parameter.encode(values[parameter.name]) for parameter in self.parameters], dtype=np.float64)
+
+    def decode(self, encoded: Sequence[float] | NDArray[np.floating[Any]]) -> Parameters:
+        """The inverse of ``encode``; values outside the space are moved to its nearest end."""
+        return {p.name: p.decode(float(e)) for p, e in zip(self.parameters, encoded, strict=True)}
+
+    def at_limit(self, values: Mapping[str, Value]) -> tuple[str, ...]:
+        """Names of the active scalars near an end of their Range, for the author: perhaps the Range ends too soon.
+
+        Integers are left out: they have few values, and the least or the most of something is often what is meant.
+        """
+        return tuple(p.name for p, _ in self._resting(values, _SHOWN) if isinstance(p, Scalar))
+
+    def pressed(self, values: Mapping[str, Value]) -> set[End]:
+        """The ends that active numbers rest on or have passed, for a search that may try longer Ranges there."""
+        return {(p.name, side) for p, side in self._resting(values, _SEARCHED)}
+
+    def outside(self, values: Mapping[str, Value]) -> tuple[Excess, ...]:
+        """The active numbers that lie outside their Ranges."""
+        sides = ((p, p.end_passed(values[p.name])) for p in self._numbers(values))
+        return tuple(Excess(p.name, float(values[p.name]), getattr(p, side), side) for p, side in sides if side)
+
+    def widened(self) -> ParameterSpace:
+        """The space for a search that may leave it: every Range is longer, an integer's by two or more to a side."""
+        return ParameterSpace(
+            tuple(
+                p.widened() if isinstance(p, Scalar) else p.widened(least=2) if isinstance(p, Integer) else p
+                for p in self.parameters
+            )
+        )
+
+    def limits(self, wide: ParameterSpace, free: Sequence[set[End]]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The least and the greatest scalars (N, P), encoded in ``wide``: this space's own but for the free ends."""
+        low, high = np.zeros((len(free), len(self))), np.ones((len(free), len(self)))
+        for column, (parameter, longer) in enumerate(zip(self, wide, strict=True)):
+            if isinstance(parameter, Scalar):
+                for row, ends in enumerate(free):
+                    if (parameter.name, "low") not in ends:
+                        low[row, column] = longer.encode(parameter.low)
+                    if (parameter.name, "high") not in ends:
+                        high[row, column] = longer.encode(parameter.high)
+        return low, high
+
+    def clipped(self, values: Mapping[str, Value], names: Sequence[str]) -> Parameters:
+        """The values, but for these names at the nearest that the space allows."""
+        nearest = self.carry(values)
+        return {**values, **{name: nearest[name] for name in names}}
+
+    def _numbers(self, values: Mapping[str, Value]) -> list[Scalar | Integer]:
+        active = self.active(values)
+        return [p for p in self.parameters if isinstance(p, Scalar | Integer) and p.name in active]
+
+    def _resting(self, values: Mapping[str, Value], margin: float) -> Iterator[tuple[Scalar | Integer, Side]]:
+        for parameter in self._numbers(values):
+            if side := parameter.end_at(values[parameter.name], margin):
+                yield parameter, side
+
+    def _enumerate(self) -> list[Parameters]:
+        vectors: list[Parameters] = [{}]
+        for parameter in self.parameters:
+            vectors = [{**vector, parameter.name: level} for vector in vectors for level in parameter.levels or ()]
+        canonical = (self.canonical(vector) for vector in vectors)
+        return list({tuple(vector.values()): vector for vector in canonical}.values())
+
+
+def _nearest(parameter: Parameter, value: Value | None, otherwise: Value) -> Value:
+    if isinstance(parameter, Scalar | Integer):
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            return parameter.decode(parameter.encode(value))
+        return otherwise
+    return value if value in (parameter.levels or ()) and value is not None else otherwise
+
+
+def _holds(parameter: Parameter, namespace: SimpleNamespace) -> bool:
+    assert parameter.when is not None
+    try:
+        return bool(parameter.when(namespace))
+    except Exception as error:
+        raise ValueError(f"{parameter.name}: its when= failed: {type(error).__name__}: {error}") from error
