@@ -16,8 +16,9 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.report import write_report
-from shapewright.runs.folder import cache_folder, check_free
+from shapewright.runs.folder import check_free
 from shapewright.runs.result import Result
+from shapewright.storage import cache_folder
 
 ROOT = Path(__file__).resolve().parents[1]
 SETS = {

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import shapewright as sw
 from shapewright.demo import meshes as bundled
-from shapewright.runs.folder import cache_folder
+from shapewright.storage import cache_folder
 
 
 def load(source: str) -> sw.Collection:

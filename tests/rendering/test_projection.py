@@ -2,12 +2,8 @@ import numpy as np
 import pytest
 import shapely
 
-import shapewright as sw
-from shapewright.fitting.silhouette_drawings import write_silhouettes
 from shapewright.modelling.solids import box, cylinder
-from shapewright.references import Collection
 from shapewright.rendering.projection import silhouette
-from shapewright.runs.folder import RunError
 from shapewright.shapes import Drawing, Mesh, concatenate
 
 TOP, LEG = box((1, 0.1, 0.6), at=(0, 0.65, 0)), box((0.1, 0.6, 0.1), at=(0.4, 0.3, 0.2))
@@ -68,17 +64,3 @@ def test_a_sheet_seen_from_its_edge_shows_nothing():
     assert overlap(silhouette(sheet, "top"), shapely.box(0, 0, 1, 1)) > 0.999
     with pytest.raises(ValueError, match="view='below'"):
         silhouette(sheet, "below")
-
-
-@pytest.mark.parametrize("format", ["svg", "png"])
-def test_written_silhouettes_are_references(tmp_path, format):
-    sheet = Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [1, 0, 1]]), np.array([[0, 1, 2]]))
-    meshes = Collection.of({"a table": TABLE, "sheet": sheet})
-    paths, unseen = write_silhouettes(meshes, tmp_path / "out", format=format)
-    assert [path.name for path in paths] == [f"a-table.{format}"] and "no area" in unseen["sheet"]
-    drawings = Collection.load(tmp_path / "out")
-    assert overlap(drawings["a-table"].shape, FRONT) > 0.99
-    with pytest.raises(RunError, match="already"):
-        write_silhouettes(meshes, tmp_path / "out")
-    with pytest.raises(sw.CollectionError, match="drawings already"):
-        write_silhouettes(drawings, tmp_path / "other")

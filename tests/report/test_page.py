@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from PIL import Image, ImageDraw
 
+from broken_disk import full_after, hidden, shown
 from shapewright.report import write_report
 from shapewright.report.page import FAR, GREEN, RED, YELLOW, colour
 from shapewright.runs.changes import Move, compare
@@ -330,6 +331,15 @@ def test_writing_again_replaces_the_page_and_leaves_nothing_else(tmp_path: Path)
     first = write_report(folder).read_bytes()
     assert write_report(folder).read_bytes() == first
     assert sorted(folder.iterdir()) == sorted([*before, folder / "report.html"])
+
+
+def test_a_full_disk_leaves_the_page_as_it_was(tmp_path: Path) -> None:
+    folder = saved(tmp_path / "001", typical())
+    write_report(folder)
+    before = shown(folder)
+    with pytest.raises(OSError, match="File too large"), full_after(1000):
+        write_report(folder)
+    assert shown(folder) == before and not hidden(folder)
 
 
 def test_what_is_no_run_is_refused(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from shapewright.runs.folder import RunError, cache_folder, check_writable, new_folder, next_run, read_record, runs
+from shapewright.runs.folder import RunError, check_writable, new_folder, next_run, read_record, runs
 
 
 def write_run(folder):
@@ -73,11 +73,3 @@ def test_a_place_that_cannot_be_written_is_said_before_the_work(tmp_path):
         check_writable(tmp_path / "file" / "001")
     with pytest.raises(RunError, match="something here already"):
         check_writable(tmp_path / "file")
-
-
-def test_the_cache_is_where_the_environment_says(tmp_path, monkeypatch):
-    monkeypatch.setenv("SHAPEWRIGHT_CACHE", str(tmp_path / "cache"))
-    assert cache_folder() == tmp_path / "cache" and (tmp_path / "cache").is_dir()
-    (tmp_path / "file").write_text("")
-    monkeypatch.setenv("SHAPEWRIGHT_CACHE", str(tmp_path / "file" / "cache"))
-    assert cache_folder() is None

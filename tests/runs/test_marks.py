@@ -2,6 +2,7 @@ import json
 
 import pytest
 
+from broken_disk import full_after, hidden, killed, shown
 from shapewright.runs.folder import RunError
 from shapewright.runs.marks import mark, marks_path, read_marks
 
@@ -61,3 +62,14 @@ def test_what_cannot_be_marked_says_why(tmp_path):
     with pytest.raises(RunError, match="mend the file"):
         mark(run, "chair", same=True)
     assert (tmp_path / "marks.json").read_text() == "{not json"
+
+
+def test_marks_are_written_whole_or_not_at_all(tmp_path):
+    run = write_run(tmp_path / "runs" / "001")
+    path = mark(run, "chair", same=True)
+    before = path.read_bytes()
+    with pytest.raises(RunError, match="cannot be written: File too large"), full_after(20):
+        mark(run, "chair", same=False)
+    assert path.read_bytes() == before and not hidden(tmp_path)
+    killed(lambda: mark(run, "chair", same=False))
+    assert shown(tmp_path)["marks.json"] == before

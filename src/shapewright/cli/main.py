@@ -35,8 +35,9 @@ from shapewright.cli.options import (
 from shapewright.cli.studio import studio
 from shapewright.procedures import ProcedureError, load_procedure
 from shapewright.references.errors import CollectionError
-from shapewright.runs.folder import RunError, cache_folder, check_free, check_writable, next_run, previous_run
+from shapewright.runs.folder import RunError, check_free, check_writable, next_run, previous_run
 from shapewright.settings import Settings
+from shapewright.storage import cache_folder
 from shapewright.studio.project.workspace import ProjectError
 
 if TYPE_CHECKING:

@@ -12,8 +12,9 @@ from rich.console import Console
 from rich.markup import escape
 
 from shapewright.cli.options import Json, Workers
-from shapewright.runs.folder import RunError, cache_folder, previous_run, read_record
+from shapewright.runs.folder import RunError, previous_run, read_record
 from shapewright.runs.marks import marks_path
+from shapewright.storage import cache_folder
 
 if TYPE_CHECKING:
     from shapewright.judging.calibration import Verdict

@@ -70,8 +70,8 @@ def silhouettes(
 ) -> None:
     """Write silhouettes of meshes as drawings, which procedures that draw can be fitted to."""
     from shapewright.cli.console import print_json
-    from shapewright.fitting.silhouette_drawings import write_silhouettes
     from shapewright.references import Collection
+    from shapewright.references.silhouette_drawings import write_silhouettes
 
     loaded = Collection.load(references, up=up, front=front)
     skipped = {str(path): reason for path, reason in loaded.skipped.items()}

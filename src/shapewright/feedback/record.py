@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import json
-import os
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import Any
 from shapewright.report import write_report
 from shapewright.report.explained import EXPLANATION, PICTURES
 from shapewright.runs.folder import RunError
+from shapewright.storage import scratch_folder
 
 
 def write_into(folder: Path, record: Mapping[str, Any]) -> dict[str, Any]:
@@ -39,16 +39,13 @@ def write(run: Path, record: Mapping[str, Any], previous: Path | None = None) ->
     with. Returns the record as it was written. Raises RunError when the folder cannot be written; then all stays as it
     was.
     """
-    partial = run / f".explanation.{os.getpid()}.part"
     try:
-        partial.mkdir()
-        told = write_into(partial, record)
-        write_report(run, previous, partial)
-        shutil.rmtree(run / PICTURES, ignore_errors=True)
-        for path in partial.iterdir():
-            path.replace(run / path.name)
+        with scratch_folder(run / EXPLANATION) as partial:
+            told = write_into(partial, record)
+            write_report(run, previous, partial)
+            shutil.rmtree(run / PICTURES, ignore_errors=True)
+            for path in partial.iterdir():
+                path.replace(run / path.name)
     except OSError as error:
         raise RunError(f"{run}: the explanation cannot be written: {error.strerror or error}") from error
-    finally:
-        shutil.rmtree(partial, ignore_errors=True)
     return told

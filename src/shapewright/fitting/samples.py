@@ -24,12 +24,12 @@ from shapewright.runs.folder import RunError, check_free
 from shapewright.shapes import Drawing
 from shapewright.shapes.files import Format, encode
 from shapewright.shapes.soundness import Soundness
+from shapewright.storage import remove_leftovers, whole_file, write_file
 
 MANIFEST, RECORD = "manifest.csv", "samples.json"
 _FORMAT = 1
 _CHUNK = 256
 _MEASURES = tuple(field.name for field in fields(Soundness))
-_PARTIAL = ".partial"
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def write_samples(
                 failed += [build for build in builds if build.failure]
                 names = [f"{procedure.name}-{i:05d}" for i in range(len(rows), len(rows) + len(chunk))]
                 rows += pool.map(lambda name, build: _write_shape(folder, name, build, format, record), names, builds)
-                _write(folder / MANIFEST, _csv([header, *rows]))
+                write_file(folder / MANIFEST, _csv([header, *rows]))
                 if progress:
                     progress(len(rows), len(vectors))
     except OSError as error:
@@ -98,9 +98,8 @@ def _resume(folder: Path, record: dict[str, Any], vectors: Sequence[Parameters])
     if not (folder / RECORD).exists():
         check_free(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        _write(folder / RECORD, json.dumps(record, indent=1).encode())
-    for leftover in folder.glob(f"*{_PARTIAL}"):
-        leftover.unlink()
+        write_file(folder / RECORD, json.dumps(record, indent=1))
+    remove_leftovers(folder, age=0.0)
     try:
         begun = json.loads((folder / RECORD).read_text(encoding="utf-8"))
         lines = (folder / MANIFEST).read_text(encoding="utf-8") if (folder / MANIFEST).exists() else ""
@@ -124,7 +123,8 @@ def _write_shape(folder: Path, name: str, build: Build, format: Format, record: 
         return ["", *values, *[""] * (1 + len(_MEASURES)), f"{build.failure.kind}: {build.failure.message}"]
     extras = {key: record[key] for key in ("procedure", "version", "seed")} | {"parameters": dict(build.parameters)}
     path = f"{name}.{'svg' if isinstance(build.shape, Drawing) else format}"
-    _write(folder / path, encode(build.shape, format, extras))
+    with whole_file(folder / path) as partial:
+        partial.write_bytes(encode(build.shape, format, extras))
     if isinstance(build.shape, Drawing):
         return [path, *values, *[""] * (1 + len(_MEASURES)), ""]
     state = build.shape.soundness()
@@ -138,14 +138,7 @@ def _summary(rows: Sequence[Sequence[str]], failed: Sequence[Build], columns: in
     return Samples(len(shapes), unsound, len(rows) - len(shapes), describe_failures(failed) if failed else "")
 
 
-def _csv(rows: Sequence[Sequence[str]]) -> bytes:
+def _csv(rows: Sequence[Sequence[str]]) -> str:
     text = io.StringIO(newline="")
     csv.writer(text).writerows(rows)
-    return text.getvalue().encode()
-
-
-def _write(path: Path, data: bytes) -> None:
-    """Write a file so that it is whole or not there."""
-    partial = path.with_name(f".{path.name}{_PARTIAL}")
-    partial.write_bytes(data)
-    partial.replace(path)
+    return text.getvalue()

@@ -20,6 +20,7 @@ from shapewright.prediction.training import Epoch
 from shapewright.rendering.cameras import PAGE, Camera
 from shapewright.rendering.raster import render
 from shapewright.shapes import Drawing, Shape
+from shapewright.storage import write_file
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +53,7 @@ class Predictor:
         # torch reports a full disk as a RuntimeError of its archive; bytes of our own raise OSError.
         buffer = io.BytesIO()
         torch.save(record, buffer)
-        path.write_bytes(buffer.getvalue())
+        write_file(path, buffer.getvalue())
 
     @classmethod
     def load(cls, path: Path) -> Predictor:

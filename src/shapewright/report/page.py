@@ -16,6 +16,7 @@ from PIL import Image
 
 from shapewright.report.explained import badges, outlines, read_explanation
 from shapewright.runs.changes import compare
+from shapewright.storage import write_file
 
 FORMAT = 1
 # The paper's colours: green for a perfect replica, yellow at the threshold, red from FAR thresholds on, unless the
@@ -53,9 +54,7 @@ def write_report(folder: Path, previous: Path | None = None, explanation: Path |
         **_contents(record, folder, read_explanation(explanation or folder)),
     )
     path = folder / "report.html"
-    partial = path.with_suffix(".part")
-    partial.write_text(page, encoding="utf-8")
-    partial.replace(path)
+    write_file(path, page)
     return path
 
 

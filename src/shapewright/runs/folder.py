@@ -1,21 +1,19 @@
-"""Folders of runs on disk: numbered, written whole or not at all, never overwritten; and the folder for caches."""
+"""Folders of runs on disk: numbered, written whole or not at all, never overwritten."""
 
 from __future__ import annotations
 
 import json
-import os
 import re
-import shutil
 import tempfile
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from shapewright.storage import is_free, whole_folder
+
 FORMAT = 1
 RECORD = "iteration.json"
-_STALE_SECONDS = 3600.0
 
 
 class RunError(Exception):
@@ -29,25 +27,16 @@ def new_folder(folder: Path) -> Iterator[Path]:
     Raises RunError when ``folder`` holds something already, or the disk cannot be written.
     """
     check_free(folder)
-    around = None
     try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        _remove_leftovers(folder)
-        around = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", suffix=".partial", dir=folder.parent))
-        partial = around / folder.name
-        partial.mkdir()
-        yield partial
-        partial.replace(folder)
+        with whole_folder(folder) as partial:
+            yield partial
     except OSError as error:
         raise RunError(f"{folder}: cannot be written: {error.strerror or error}; nothing was left there") from error
-    finally:
-        if around:
-            shutil.rmtree(around, ignore_errors=True)
 
 
 def check_free(folder: Path) -> None:
     """Raise RunError when there is something at ``folder`` already."""
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+    if not is_free(folder):
         raise RunError(
             f"{folder}: there is something here already, and runs are never overwritten; name another folder"
         )
@@ -101,24 +90,3 @@ def read_record(folder: Path) -> dict[str, Any]:
     if record.get("format") != FORMAT:
         raise RunError(f"{path}: format {record.get('format')!r}; this version of shapewright reads {FORMAT}")
     return record
-
-
-def cache_folder() -> Path | None:
-    """Where descriptors of references are kept between runs, or None when it cannot be written.
-
-    SHAPEWRIGHT_CACHE, else the user's folder for caches.
-    """
-    home = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".cache"
-    folder = Path(os.environ.get("SHAPEWRIGHT_CACHE") or Path(home) / "shapewright")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
-        return None
-    return folder if os.access(folder, os.W_OK) else None
-
-
-def _remove_leftovers(folder: Path) -> None:
-    """Delete what writers of this folder left that were killed long ago."""
-    for path in folder.parent.glob(f".{folder.name}.*.partial"):
-        if time.time() - path.stat().st_mtime > _STALE_SECONDS:
-            shutil.rmtree(path, ignore_errors=True)

@@ -19,10 +19,11 @@ from shapewright.prediction.predictor import Predictor
 from shapewright.references.readers.svg import read_svg
 from shapewright.rendering.thumbnails import thumbnails
 from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
-from shapewright.runs.result import Result, file_names, from_record, replica_path, to_record
+from shapewright.runs.result import Result, from_record, replica_path, to_record
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh, Shape, concatenate
 from shapewright.shapes.files import NO_LABEL, encode
+from shapewright.storage import file_names
 
 Pictures = Mapping[str, tuple[bytes, bytes | None]]
 

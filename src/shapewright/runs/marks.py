@@ -13,13 +13,13 @@ the run at hand says what they are. Other entries of an object are kept as they 
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from shapewright.runs.folder import RunError, previous_run, read_record
+from shapewright.storage import write_file
 
 MARKS = "marks.json"
 MEASURES = ("distance", "iou", "depth")
@@ -126,10 +126,7 @@ def _read(path: Path) -> list[dict[str, Any]]:
 
 
 def _write(path: Path, entries: Sequence[Mapping[str, Any]]) -> None:
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        partial.write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
-        partial.replace(path)
+        write_file(path, json.dumps(entries, indent=1) + "\n")
     except OSError as error:
-        partial.unlink(missing_ok=True)
         raise RunError(f"{path}: the mark cannot be written: {error.strerror or error}") from error

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -88,22 +87,6 @@ def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
 def replica_path(replica: Shape | None, slug: str) -> str | None:
     """Where a run keeps a replica, GLB or SVG."""
     return f"replicas/{slug}.{'glb' if isinstance(replica, Mesh) else 'svg'}" if replica else None
-
-
-def file_names(names: tuple[str, ...]) -> dict[str, str]:
-    """A short file name of safe characters for each name, all different."""
-    slugs: dict[str, str] = {}
-    taken: set[str] = set()
-    for name in names:
-        stem = re.sub(r"[^A-Za-z0-9_-]+", "-", name).strip("-")[:80] or "reference"
-        slug = stem
-        for count in range(2, len(names) + 2):
-            if slug.lower() not in taken:
-                break
-            slug = f"{stem}-{count}"
-        taken.add(slug.lower())
-        slugs[name] = slug
-    return slugs
 
 
 def _finite(value: float) -> float | None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +10,7 @@ import numpy as np
 
 from shapewright.comparison.light_field.description import Descriptor, describe
 from shapewright.shapes import Mesh, mesh_digest
+from shapewright.storage import whole_file
 
 FORMAT = 1
 """Part of every file's name; raise it whenever the same mesh would get another descriptor."""
@@ -41,14 +40,8 @@ class DescriptorCache:
 
     def _write(self, path: Path, descriptor: Descriptor) -> None:
         self.folder.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(suffix=".part", dir=self.folder)
-        try:
-            with os.fdopen(handle, "wb") as file:
-                np.savez(file, coefficients=descriptor.coefficients)
-            Path(name).replace(path)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
+        with whole_file(path) as partial, partial.open("wb") as file:
+            np.savez(file, coefficients=descriptor.coefficients)
 
 
 def _read(path: Path, bits: int) -> Descriptor | None:

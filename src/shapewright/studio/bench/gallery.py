@@ -10,6 +10,7 @@ from typing import Generic, TypeVar
 from shapewright.references.collection import Reference, read_reference
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.shapes import Mesh, Shape
+from shapewright.storage import write_file
 from shapewright.studio.project.listing import PICTURE, Listing, kept_picture
 
 Item = TypeVar("Item")
@@ -58,9 +59,7 @@ class Gallery:
         kept = kept_picture(self._cache, self.listed.sources[slug]) if self._cache else None
         if kept:
             kept.parent.mkdir(parents=True, exist_ok=True)
-            partial = kept.with_suffix(".part")
-            partial.write_bytes(drawn)
-            partial.replace(kept)
+            write_file(kept, drawn)
         return drawn
 
 

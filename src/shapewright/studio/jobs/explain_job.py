@@ -16,9 +16,10 @@ def explain(run: Path, origin: Origin, events: TextIO) -> None:
     from shapewright.feedback.explanation import explain as explain_iteration
     from shapewright.feedback.record import write
     from shapewright.feedback.suggestions import suggestion_records
-    from shapewright.runs.folder import cache_folder, previous_run
+    from shapewright.runs.folder import previous_run
     from shapewright.runs.inputs import procedure_of
     from shapewright.runs.iteration import Iteration
+    from shapewright.storage import cache_folder
 
     def listen(progress: Progress) -> None:
         told: dict[str, Any] = {name: getattr(progress, name) for name in ("stage", "done", "total", "remark")}

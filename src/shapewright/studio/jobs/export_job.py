@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import sys
-import tempfile
 import time
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -13,6 +12,7 @@ from typing import Any, TextIO
 from urllib.parse import quote
 
 from shapewright.runs.folder import read_record
+from shapewright.storage import remove_leftovers, scratch_folder, whole_file
 from shapewright.studio.jobs.fit_job import streams, tell
 
 _KEPT = 5
@@ -26,8 +26,8 @@ def pack(request: Mapping[str, Any], events: TextIO) -> Path:
     run = Path(request["run"]) if request["run"] else None
     stem = re.sub(r"[^A-Za-z0-9_-]+", "-", "-".join([Path(request["procedure"]).resolve().parent.name, *_names(run)]))
     file = folder / f"{stem.strip('-')}-{time.strftime('%Y%m%d-%H%M%S')}.zip"
-    partial = file.with_suffix(".part")
-    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
+    remove_leftovers(folder)
+    with whole_file(file) as partial, zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
         if run and "report" in request["what"]:
             archive.write(run / "report.html", "report.html")
         if run and "parameters" in request["what"]:
@@ -37,7 +37,6 @@ def pack(request: Mapping[str, Any], events: TextIO) -> Path:
                 archive.writestr(f"replicas/{name}", data)
         if "samples" in request["what"]:
             _add_samples(request, archive, events)
-    partial.replace(file)
     for old in sorted(folder.glob("*.zip"), key=lambda path: path.stat().st_mtime)[:-_KEPT]:
         old.unlink()
     return file
@@ -78,8 +77,8 @@ def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, events: T
     from shapewright.fitting.samples import write_samples
     from shapewright.procedures import load_procedure
 
-    with tempfile.TemporaryDirectory(dir=request["folder"]) as place:
-        home = Path(place) / "samples"
+    with scratch_folder(Path(request["folder"]) / "samples") as place:
+        home = place / "samples"
         write_samples(
             load_procedure(request["procedure"]),
             request["count"],

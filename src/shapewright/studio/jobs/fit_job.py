@@ -67,9 +67,10 @@ def fit(request: Mapping[str, Any], events: TextIO) -> str:
     from shapewright.fitting.fit import fit as iterate
     from shapewright.procedures import load_procedure
     from shapewright.report import write_report
-    from shapewright.runs.folder import cache_folder, next_run, previous_run
+    from shapewright.runs.folder import next_run, previous_run
     from shapewright.runs.iteration import Iteration
     from shapewright.settings import Settings
+    from shapewright.storage import cache_folder, write_file
 
     procedure, references = load_procedure(request["procedure"]), collection(Origin(**request["origin"]))
     previous = Iteration.load(request["previous"]) if request["previous"] else None
@@ -88,7 +89,7 @@ def fit(request: Mapping[str, Any], events: TextIO) -> str:
     before = previous_run(folder, set(iteration.names))
     iteration.save(folder, lambda partial: write_report(partial, before))
     predictions = json.dumps(predicted(iteration), allow_nan=False)
-    (folder / PREDICTIONS).write_text(predictions, encoding="utf-8")
+    write_file(folder / PREDICTIONS, predictions)
     return folder.name
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from shapewright.references.readers.formats import MESHES
 from shapewright.references.sources import Source, find
-from shapewright.runs.result import file_names
+from shapewright.storage import file_names
 
 PICTURE = 256
 """Pixels of a reference's thumbnail."""

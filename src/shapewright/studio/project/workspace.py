@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import re
-import secrets
-import shutil
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
 from shapewright.runs.folder import runs
+from shapewright.storage import remove_leftovers, write_file
 from shapewright.studio.project.listing import Origin
 
 SCRATCH = ".shapewright"
@@ -115,9 +114,9 @@ class Project:
         if expected is not None and found != expected:
             raise Conflict(before, found)
         if text != before:
-            (self.scratch() / f"procedure-{time.strftime('%Y%m%d-%H%M%S')}-{found}.py").write_text(before, "utf-8")
+            _write(self.scratch() / f"procedure-{time.strftime('%Y%m%d-%H%M%S')}-{found}.py", before)
             ending = "\r\n" if b"\r\n" in self.procedure.read_bytes() else "\n"
-            _write(self.procedure, text.replace("\r\n", "\n"), ending)
+            _write(self.procedure, text.replace("\r\n", "\n").replace("\n", ending))
         return digest(text)
 
     def write_copy(self, text: str) -> Path:
@@ -126,7 +125,7 @@ class Project:
         home = self.procedure.parent
         taken = {path.name for path in home.iterdir()}
         name = next(name for i in range(1, len(taken) + 2) if (name := f"{stem}-{i}.py") not in taken)
-        _write(home / name, text, "\n")
+        _write(home / name, text)
         return home / name
 
     def scratch(self) -> Path:
@@ -136,7 +135,8 @@ class Project:
             raise ProjectError(f"{folder}: a link; remove it")
         folder.mkdir(exist_ok=True)
         if not (folder / ".gitignore").exists():
-            (folder / ".gitignore").write_text("*\n")
+            write_file(folder / ".gitignore", "*\n")
+        remove_leftovers(folder)
         return folder
 
     def fingerprint(self) -> str:
@@ -157,18 +157,11 @@ def digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def _write(path: Path, text: str, newline: str) -> None:
+def _write(path: Path, text: str) -> None:
     """Replace a file's text, whole or not at all; a link is followed."""
-    target = path.resolve()
-    partial = target.with_name(f".{target.name}.{secrets.token_hex(4)}.part")
     try:
-        with partial.open("w", encoding="utf-8", newline=newline) as file:
-            file.write(text)
-        if target.exists():
-            shutil.copymode(target, partial)
-        partial.replace(target)
+        write_file(path.resolve(), text)
     except OSError as error:
-        partial.unlink(missing_ok=True)
         raise ProjectError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 

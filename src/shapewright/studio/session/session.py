@@ -10,8 +10,9 @@ from typing import Any
 
 from shapewright.judging.metric import Metric, fidelity, light_field
 from shapewright.references.errors import CollectionError
-from shapewright.runs.folder import RunError, cache_folder
+from shapewright.runs.folder import RunError
 from shapewright.runs.marks import pairs, replace_pairs
+from shapewright.storage import cache_folder
 from shapewright.studio.bench.client import BenchError, BenchProcess
 from shapewright.studio.jobs.runner import Job, Kind
 from shapewright.studio.project.authored import Authored

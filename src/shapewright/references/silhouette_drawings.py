@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Literal
 
-from shapewright.references import Collection, CollectionError
+from shapewright.references.collection import Collection
+from shapewright.references.errors import CollectionError
 from shapewright.rendering.ink import png
 from shapewright.rendering.projection import View, silhouette
-from shapewright.runs.folder import check_free
-from shapewright.runs.result import file_names
 from shapewright.shapes import Mesh
 from shapewright.shapes.files import svg
+from shapewright.storage import file_names, whole_folder
 from shapewright.threads import in_threads
 
 
@@ -24,12 +24,11 @@ def write_silhouettes(
 ) -> tuple[list[Path], dict[str, str]]:
     """Write a drawing of every mesh into a new folder; returns their paths, and why a reference has none.
 
-    Raises CollectionError for a collection of drawings, RunError for a folder that holds something already.
+    The folder is written whole or not at all. Raises CollectionError for a collection of drawings, FileExistsError for
+    a folder that holds something already, OSError when the disk cannot be written.
     """
     if references.kind is not Mesh:
         raise CollectionError(f"{references.source}: these are drawings already; silhouettes are of meshes")
-    check_free(folder)
-    folder.mkdir(parents=True, exist_ok=True)
     slugs = file_names(references.names)
     unseen: dict[str, str] = {}
 
@@ -41,9 +40,10 @@ def write_silhouettes(
         except ValueError as error:
             unseen[name] = str(error)
             return None
-        path = folder / f"{slugs[name]}.{format}"
+        path = partial / f"{slugs[name]}.{format}"
         path.write_bytes(svg(drawing) if format == "svg" else png(drawing))
-        return path
+        return folder / path.name
 
-    written = in_threads(write, references.names, threads)
+    with whole_folder(folder) as partial:
+        written = in_threads(write, references.names, threads)
     return [path for path in written if path], unseen

@@ -1,0 +1,21 @@
+"""Pictures of references in the cache."""
+
+import pytest
+
+from broken_disk import full_after, hidden, shown
+from shapewright.modelling.solids import box
+from shapewright.shapes.files import encode
+from shapewright.studio.bench.gallery import Gallery
+from shapewright.studio.project.listing import Origin, listing
+
+
+def test_a_picture_is_kept_whole_or_not_at_all(tmp_path):
+    (tmp_path / "references").mkdir()
+    (tmp_path / "references" / "cube.ply").write_bytes(encode(box(1).mesh(), "ply"))
+    cache = tmp_path / "cache"
+    gallery = Gallery(listing(Origin(str(tmp_path / "references"))), cache)
+    with pytest.raises(OSError, match="File too large"), full_after(100):
+        gallery.picture("cube")
+    assert not shown(cache) and not hidden(cache)
+    drawn = gallery.picture("cube")
+    assert list(shown(cache).values()) == [drawn] and not hidden(cache)

@@ -1,0 +1,35 @@
+"""An export: one ZIP, whole or not at all."""
+
+import io
+import json
+import zipfile
+
+import pytest
+
+from broken_disk import full_after, killed
+from shapewright.studio.jobs.export_job import pack
+
+
+@pytest.fixture
+def request_(tmp_path):
+    run = tmp_path / "runs" / "001"
+    run.mkdir(parents=True)
+    (run / "report.html").write_bytes(bytes(range(256)))
+    (run / "iteration.json").write_text(json.dumps({"format": 1, "references": []}))
+    return {
+        "folder": str(tmp_path / "scratch"),
+        "run": str(run),
+        "procedure": str(tmp_path / "procedure.py"),
+        "what": ["report"],
+        "format": "glb",
+    }
+
+
+def test_an_export_is_whole_or_not_there(tmp_path, request_):
+    with pytest.raises(OSError, match="File too large"), full_after(100):
+        pack(request_, io.StringIO())
+    assert not list((tmp_path / "scratch").iterdir())
+    killed(lambda: pack(request_, io.StringIO()))
+    assert not list((tmp_path / "scratch").glob("*.zip"))
+    file = pack(request_, io.StringIO())
+    assert zipfile.ZipFile(file).namelist() == ["report.html"]
