@@ -36,13 +36,15 @@ def test_a_stage_that_comes_again_adds_up_and_an_answer_is_never_held_back():
     stages.end()
     assert list(stages.seconds) == ["train"]
     answers = [event for event in told if event.answer]
-    assert len(answers) == 2 and answers[0] == Progress("train", 1, 1, "predicted", {"a": {"height": 1.0}})
+    assert len(answers) == 2 and answers[0] == Progress(
+        "train", 1, 1, "predicted", {"a": {"height": 1.0}}, answer_kind="predicted"
+    )
     assert stages.first_answer is not None and stages.first_answer >= 0.0
 
 
 def test_without_a_listener_seconds_are_kept():
     stages = Stages(None)
     stages.begin("sample", 1)
-    stages.answer({}, "nothing")
+    stages.answer({}, "predicted")
     stages.end()
     assert stages.seconds["sample"] >= 0.0

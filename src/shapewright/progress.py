@@ -5,16 +5,25 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 from shapewright.parameters import Parameters
+
+AnswerKind = Literal["carried over", "most similar samples", "predicted"]
+"""Where parameters that are shown before the end of a fit come from: the run before, the first samples, the network."""
 
 
 @dataclass(frozen=True)
 class Progress:
-    """A stage of an iteration: how many of its steps are done, and a remark.
+    """A stage of an iteration, and how far it is.
 
-    answer: the parameters of every reference as far as they are known by now, when these are news. losses: of the epoch
-    of training that ended: epoch, train, validation (None where nothing was held back).
+    stage: name of the stage.
+    done: steps that are done.
+    total: steps that there are.
+    remark: what a person may read beside it.
+    answer: the parameters of every reference as far as they are known by now; None when there is nothing new.
+    losses: of the epoch of training that ended: epoch, train, validation (None where nothing was held back).
+    answer_kind: where ``answer`` comes from; None without one.
     """
 
     stage: str
@@ -23,6 +32,7 @@ class Progress:
     remark: str = ""
     answer: Mapping[str, Parameters] | None = field(default=None, repr=False)
     losses: Mapping[str, float | None] | None = field(default=None, repr=False)
+    answer_kind: AnswerKind | None = None
 
     def __str__(self) -> str:
         return f"{self.stage} {self.done}/{self.total}{' ' + self.remark if self.remark else ''}"
@@ -58,12 +68,12 @@ class Stages:
             self._told = now
             self._listener(Progress(self._stage, done, total, remark, losses=losses))
 
-    def answer(self, answer: Mapping[str, Parameters], remark: str) -> None:
-        """Tell the parameters found so far; never held back."""
+    def answer(self, answer: Mapping[str, Parameters], kind: AnswerKind) -> None:
+        """Report the parameters that are known so far; never held back."""
         if self.first_answer is None:
             self.first_answer = time.perf_counter() - self._created
         if self._listener:
-            self._listener(Progress(self._stage, 1, 1, remark, answer))
+            self._listener(Progress(self._stage, 1, 1, kind, answer, answer_kind=kind))
 
     def end(self) -> None:
         if self._stage:

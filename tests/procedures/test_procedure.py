@@ -5,7 +5,7 @@ import pytest
 
 import shapewright as sw
 from shapewright import Binary, Choice, Infeasible, Integer, Range, Scalar, When
-from shapewright.procedures import author_line
+from shapewright.procedures import describe, place_of
 
 TRIANGLE = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
 
@@ -161,4 +161,5 @@ def test_author_line_is_the_deepest_line_in_the_authors_folder(tmp_path):
     part = sw.load_procedure(write(tmp_path, "model.py", text))
     with pytest.raises(ValueError) as error:
         part()
-    assert author_line(error.value, part.path).startswith(f"{tmp_path}/model.py:6: ValueError:")
+    place = place_of(error.value, part.path)
+    assert place and place.says(describe(error.value)).startswith(f"{tmp_path}/model.py:6: ValueError:")

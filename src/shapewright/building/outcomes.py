@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from shapewright.parameters import Parameters
+from shapewright.procedures import Place, ProcedureError
 from shapewright.shapes import Shape
 
 FailureKind = Literal["infeasible", "raised", "no shape", "time", "memory", "crash"]
@@ -23,10 +24,30 @@ class Limits:
 
 @dataclass(frozen=True)
 class Failure:
-    """Why a shape could not be built. kind says what happened, message where and what."""
+    """Why a shape could not be built.
+
+    kind: what happened.
+    message: what was wrong.
+    place: the author's line, where it is known.
+    """
 
     kind: FailureKind
     message: str
+    place: Place | None = None
+
+    def __str__(self) -> str:
+        return f"{self.kind}: {self.place.says(self.message) if self.place else self.message}"
+
+    def error(self) -> ProcedureError:
+        """The same, of a procedure that could not be loaded."""
+        return ProcedureError(self.message, self.place, "time" if self.kind == "time" else "broken")
+
+    @classmethod
+    def parse(cls, text: str) -> Failure:
+        """A failure from its text, as a run's record keeps it; what names no kind gave a shape of no use."""
+        kind, _, message = text.partition(": ")
+        known: dict[str, FailureKind] = {name: name for name in get_args(FailureKind)}
+        return cls(known[kind], message) if kind in known else cls("no shape", text)
 
 
 @dataclass(frozen=True)
@@ -47,9 +68,14 @@ def describe_failures(builds: Sequence[Build]) -> str:
     example = {build.failure: build.parameters for build in reversed(failed) if build.failure}
     counts = Counter(build.failure for build in failed if build.failure)
     return "; ".join(
-        f"{count} x {failure.kind}: {failure.message}, for example with {_call(example[failure])}"
-        for failure, count in counts.most_common(3)
+        f"{count} x {failure}, for example with {_call(example[failure])}" for failure, count in counts.most_common(3)
     )
+
+
+def commonest_place(builds: Sequence[Build]) -> Place | None:
+    """The author's line at which most of the failures arose that have one."""
+    places = Counter(build.failure.place for build in builds if build.failure and build.failure.place)
+    return next((place for place, _ in places.most_common(1)), None)
 
 
 def _call(parameters: Parameters) -> str:

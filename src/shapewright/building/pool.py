@@ -16,7 +16,7 @@ from typing import Literal
 
 import cloudpickle
 
-from shapewright.building.outcomes import Build, Failure, Limits, describe_failures
+from shapewright.building.outcomes import Build, Failure, Limits, commonest_place, describe_failures
 from shapewright.building.process import WorkerProcess
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError
@@ -191,7 +191,8 @@ def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:
     kinds = {build.failure.kind if build.failure else None for build in probes}
     hopeless = kinds == {"time"} or (enough == _PROBES[-1] and not kinds & {None, "infeasible"})
     if len(probes) >= enough and hopeless:
-        raise ProcedureError(f"every one of the first {len(probes)} shapes failed: {describe_failures(probes)}")
+        message = f"every one of the first {len(probes)} shapes failed: {describe_failures(probes)}"
+        raise ProcedureError(message, commonest_place(probes), summary=True)
 
 
 def _payload(procedure: Procedure, names: str) -> bytes:
@@ -201,6 +202,7 @@ def _payload(procedure: Procedure, names: str) -> bytes:
         return bytes(cloudpickle.dumps((procedure, list(sys.path), names)))
     except Exception as error:
         raise ProcedureError(
-            f"{procedure.where}: it cannot be sent to the worker processes ({error}); "
-            "put the procedure in a file of its own and load it with load_procedure"
+            f"it cannot be sent to the worker processes ({error}); "
+            "put the procedure in a file of its own and load it with load_procedure",
+            procedure.place,
         ) from error

@@ -61,11 +61,11 @@ class WorkerProcess:
             if waited >= patience or (stop and stop.is_set()):
                 self.stop()
                 message = f"a worker process read the procedure's file and did not answer within {waited:g} s"
-                raise ProcedureError(message)
+                raise ProcedureError(message, kind="time")
         self.ready = self._receive()
         if isinstance(self.ready, Failure):
             self.stop()
-            raise ProcedureError(self.ready.message)
+            raise self.ready.error()
 
     def ask(self, parameters: list[Parameters], stop: threading.Event) -> list[Build] | Failure:
         """The builds of the first few vectors (at least one), or the failure that ended the worker.
@@ -80,7 +80,7 @@ class WorkerProcess:
         answer = self.exchange(payload, threading.Event())
         if isinstance(answer, Failure):
             self.stop()
-            raise ProcedureError(answer.message)
+            raise answer.error()
 
     def exchange(self, request: Any, stop: threading.Event) -> Any:
         """What the worker answers, or the failure that ended it; stop: leave off waiting, the worker is then lost."""

@@ -15,7 +15,7 @@ from pathlib import Path
 from shapewright.building.clock import COMPILING, TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.parameters import Parameters
-from shapewright.procedures import Infeasible, Procedure, ProcedureError, author_line, load_procedure
+from shapewright.procedures import Infeasible, Procedure, ProcedureError, describe, load_procedure, place_of
 
 _ANSWER_WITHIN = 0.25
 _READY = "ready"
@@ -29,7 +29,7 @@ def serve(connection: Connection) -> None:
         try:
             procedure, names = _received(payload)
         except ProcedureError as error:
-            connection.send(Failure("raised", str(error)))
+            connection.send(Failure("raised", error.message, error.place))
             return
     limit_memory(limits.memory_mb)
     connection.send(_READY)
@@ -41,7 +41,7 @@ def serve(connection: Connection) -> None:
                     procedure, _ = _received(requests)
                     connection.send(_READY)
                 except ProcedureError as error:
-                    connection.send(Failure("raised", str(error)))
+                    connection.send(Failure("raised", error.message, error.place))
             else:
                 connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
 
@@ -92,7 +92,8 @@ def _build_some(
             with time_limit(limits.seconds, compiling):
                 builds.append(build(procedure, parameters, limits))
         except TimeLimit as error:
-            builds.append(Build(parameters, None, Failure("time", author_line(error, procedure.path)), limits.seconds))
+            late = Failure("time", describe(error), place_of(error, procedure.path))
+            builds.append(Build(parameters, None, late, limits.seconds))
         if time.perf_counter() - started > _ANSWER_WITHIN * limits.seconds:
             break
     return builds
@@ -107,11 +108,11 @@ def build(procedure: Procedure, parameters: Parameters, limits: Limits) -> Build
     except Infeasible as error:
         failure = Failure("infeasible", str(error) or "it is infeasible")
     except ProcedureError as error:
-        failure = Failure("no shape", str(error))
+        failure = Failure("no shape", error.message, error.place)
     except MemoryError:
         failure = Failure("memory", f"it needed more than {limits.memory_mb} MB of memory")
     except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever the author's code raises is a result
-        failure = Failure("raised", author_line(error, procedure.path))
+        failure = Failure("raised", describe(error), place_of(error, procedure.path))
     return Build(parameters, shape, failure, time.perf_counter() - started)
 
 

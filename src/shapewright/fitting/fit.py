@@ -257,7 +257,7 @@ def _results(
 
 def _error(build: Build, distance: float) -> str | None:
     if build.failure:
-        return f"{build.failure.kind}: {build.failure.message}"
+        return str(build.failure)
     return "so thin that no view shows it: it cannot be compared" if math.isnan(distance) else None
 
 

@@ -120,7 +120,7 @@ def _write_shape(folder: Path, name: str, build: Build, format: Format, record: 
     values = [str(value) for value in build.parameters.values()]
     if build.shape is None:
         assert build.failure is not None
-        return ["", *values, *[""] * (1 + len(_MEASURES)), f"{build.failure.kind}: {build.failure.message}"]
+        return ["", *values, *[""] * (1 + len(_MEASURES)), str(build.failure)]
     extras = {key: record[key] for key in ("procedure", "version", "seed")} | {"parameters": dict(build.parameters)}
     path = f"{name}.{'svg' if isinstance(build.shape, Drawing) else format}"
     with whole_file(folder / path) as partial:

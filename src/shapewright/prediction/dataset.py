@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from shapewright.building import Build, describe_failures
+from shapewright.building import Build, commonest_place, describe_failures
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.procedures import ProcedureError
 from shapewright.rendering.cameras import THREE_VIEWS, Camera
@@ -79,7 +79,8 @@ def shapes_of(builds: Sequence[Build], kind: type[Shape] | None = None) -> tuple
         built, wanted = ("drawings", "meshes") if kind is Mesh else ("meshes", "drawings")
         other = any(build.shape is not None and not isinstance(build.shape, kind) for build in builds)
         why = f"it builds {built}, and references are {wanted}" if other else describe_failures(builds)
-        raise ProcedureError(f"only {len(good)} of {len(builds)} sampled shapes can be used: {why}")
+        message = f"only {len(good)} of {len(builds)} sampled shapes can be used: {why}"
+        raise ProcedureError(message, None if other else commonest_place(builds), summary=True)
     return good, [build.shape.normalised() for build in good if build.shape is not None]
 
 

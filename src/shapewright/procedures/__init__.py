@@ -1,12 +1,15 @@
 """Procedures: the author's function, whose signature is its parameter space."""
 
-from shapewright.procedures.procedure import (
-    Infeasible,
-    Procedure,
-    ProcedureError,
-    author_line,
-    load_procedure,
-    procedure,
-)
+from shapewright.procedures.places import Place, describe, place_of
+from shapewright.procedures.procedure import Infeasible, Procedure, ProcedureError, load_procedure, procedure
 
-__all__ = ["Infeasible", "Procedure", "ProcedureError", "author_line", "load_procedure", "procedure"]
+__all__ = [
+    "Infeasible",
+    "Place",
+    "Procedure",
+    "ProcedureError",
+    "describe",
+    "load_procedure",
+    "place_of",
+    "procedure",
+]

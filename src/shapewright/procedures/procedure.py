@@ -7,7 +7,6 @@ import importlib.util
 import inspect
 import linecache
 import sys
-import traceback
 import typing
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +14,7 @@ from types import ModuleType
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 from shapewright.parameters import Binary, Choice, Integer, Parameter, ParameterSpace, Range, Scalar, When
+from shapewright.procedures.places import Place, describe, place_of
 from shapewright.shapes import Shape
 from shapewright.shapes.conversion import as_shape
 
@@ -25,7 +25,26 @@ _KINDS = (
 
 
 class ProcedureError(Exception):
-    """The author's file or function cannot be used; the message says where and what to do."""
+    """The author's file or function cannot be used; as text it says where and what to do.
+
+    message: what is wrong and what to do, without the place unless ``summary``.
+    place: the author's line, where it is known.
+    kind: ``"time"`` when the author's code took too long, else ``"broken"``.
+    summary: the message is about several shapes and names the place itself.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        place: Place | None = None,
+        kind: Literal["broken", "time"] = "broken",
+        summary: bool = False,
+    ) -> None:
+        super().__init__(message, place, kind, summary)
+        self.message, self.place, self.kind, self.summary = message, place, kind, summary
+
+    def __str__(self) -> str:
+        return self.place.says(self.message) if self.place and not self.summary else self.message
 
 
 class Infeasible(Exception):
@@ -55,7 +74,7 @@ class Procedure:
         try:
             return as_shape(result)
         except (TypeError, ValueError) as error:
-            raise ProcedureError(f"{self.where}: {error}") from error
+            raise ProcedureError(str(error), self.place) from error
 
     def random(self, seed: int = 0) -> Shape:
         """A shape at random parameters; the next ones in turn while these are infeasible."""
@@ -64,12 +83,12 @@ class Procedure:
                 return self(**parameters)
             except Infeasible:
                 continue
-        raise ProcedureError(f"{self.where}: 100 random parameter vectors were all infeasible")
+        raise ProcedureError("100 random parameter vectors were all infeasible", self.place)
 
     @property
-    def where(self) -> str:
-        code = self.function.__code__
-        return f"{code.co_filename}:{code.co_firstlineno}, {self.name}()"
+    def place(self) -> Place:
+        """Where the function begins."""
+        return _place(self.function)
 
     @property
     def source(self) -> str:
@@ -110,18 +129,6 @@ def load_procedure(path: str | Path) -> Procedure:
     return chosen
 
 
-def author_line(error: BaseException, path: Path | None) -> str:
-    """Where in the author's files an error arose, and what it says: ``file.py:12: ValueError: ... (the line)``."""
-    frames = traceback.extract_tb(error.__traceback__)
-    theirs = [frame for frame in frames if path is None or Path(frame.filename).is_relative_to(path.parent)]
-    own = [frame for frame in theirs if not Path(frame.filename).is_relative_to(Path(__file__).parents[1])]
-    what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    if not own:
-        return what
-    text = f"  ({own[-1].line})" if own[-1].line else ""
-    return f"{own[-1].filename}:{own[-1].lineno}: {what}{text}"
-
-
 def _split(path: str | Path) -> tuple[Path, str | None]:
     text = str(path)
     file, colon, name = text.rpartition(":")
@@ -150,10 +157,10 @@ def _execute(path: Path) -> ModuleType:
     except ProcedureError:
         raise
     except SyntaxError as error:
-        where = f"{error.filename or path}:{error.lineno}"
-        raise ProcedureError(f"{where}: {error.msg}  ({(error.text or '').strip()})") from error
+        place = Place(error.filename or str(path), error.lineno, (error.text or "").strip() or None)
+        raise ProcedureError(error.msg, place) from error
     except Exception as error:
-        raise ProcedureError(author_line(error, path)) from error
+        raise ProcedureError(describe(error), place_of(error, path)) from error
     except SystemExit as error:
         raise ProcedureError(f"{path}: the file ended the program (sys.exit) while it was read") from error
     finally:
@@ -172,20 +179,24 @@ def _forget_siblings(folder: Path, before: set[str]) -> None:
             del sys.modules[name]
 
 
-def _space(function: Callable[..., Any]) -> ParameterSpace:
+def _place(function: Callable[..., Any]) -> Place:
     code = function.__code__
-    where = f"{code.co_filename}:{code.co_firstlineno}, {function.__name__}()"
+    return Place(code.co_filename, code.co_firstlineno, function=function.__name__)
+
+
+def _space(function: Callable[..., Any]) -> ParameterSpace:
+    place = _place(function)
     try:
         hints = typing.get_type_hints(function, include_extras=True)
     except (NameError, TypeError) as error:
-        raise ProcedureError(f"{where}: an annotation cannot be read: {error}") from error
+        raise ProcedureError(f"an annotation cannot be read: {error}", place) from error
     signature = inspect.signature(function).parameters.values()
     if not signature:
-        raise ProcedureError(f"{where}: it has no parameters; give it some: {_KINDS}")
+        raise ProcedureError(f"it has no parameters; give it some: {_KINDS}", place)
     try:
         return ParameterSpace(tuple(_parameter(item, hints.get(item.name)) for item in signature))
     except ValueError as error:
-        raise ProcedureError(f"{where}: {error}") from error
+        raise ProcedureError(str(error), place) from error
 
 
 def _parameter(item: inspect.Parameter, hint: Any) -> Parameter:

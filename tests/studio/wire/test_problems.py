@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from shapewright.building.outcomes import Failure
-from shapewright.procedures import ProcedureError, author_line, load_procedure
-from shapewright.studio.wire.problems import Problem, of_failure, problem, syntax_problem, together
+from shapewright.procedures import Place, ProcedureError, describe, load_procedure, place_of
+from shapewright.studio.wire.problems import Problem, of_error, of_failure, syntax_problem, together
 
 HEAD = "from typing import Annotated\nfrom shapewright import Range, procedure\n\n@procedure\n"
 
@@ -28,7 +28,7 @@ def test_errors_of_loading(tmp_path: Path, text: str, line: int | None, said: st
     path.write_text(text)
     with pytest.raises(ProcedureError) as raised:
         load_procedure(path)
-    found = problem("load", str(raised.value), path.parent)
+    found = of_error(raised.value, "load", path.parent)
     assert said in found.message and found.line == line and found.text == quoted
     assert found.file == ("procedure.py" if line else None)
 
@@ -39,7 +39,7 @@ def test_error_of_a_shape(tmp_path: Path) -> None:
     procedure = load_procedure(path)
     with pytest.raises(ZeroDivisionError) as raised:
         procedure(x=0.5)
-    found = of_failure(Failure("raised", author_line(raised.value, path)), tmp_path, {"x": 0.5})
+    found = of_failure(Failure("raised", describe(raised.value), place_of(raised.value, path)), tmp_path, {"x": 0.5})
     assert found == Problem(
         "raised", "ZeroDivisionError: division by zero", "procedure.py", 6, "return 1 / 0", (), {"x": 0.5}
     )
@@ -48,12 +48,15 @@ def test_error_of_a_shape(tmp_path: Path) -> None:
 
 def test_place_inside_a_message(tmp_path: Path) -> None:
     message = f"every one of the first 8 shapes failed: 8 x raised: {tmp_path}/procedure.py:7: KeyError: 'x'  (a['x'])"
-    found = problem("load", message, tmp_path)
+    place = Place(f"{tmp_path}/procedure.py", 7, "a['x']")
+    error = ProcedureError(message, place, summary=True)
+    found = of_error(error, "load", tmp_path)
+    assert str(error) == message
     assert (found.file, found.line, found.message) == ("procedure.py", 7, message)
 
 
 def test_message_without_a_place(tmp_path: Path) -> None:
-    assert problem("fit", "no space left", tmp_path) == Problem("fit", "no space left")
+    assert of_error(OSError("no space left"), "fit", tmp_path) == Problem("fit", "no space left")
 
 
 def test_syntax(tmp_path: Path) -> None:

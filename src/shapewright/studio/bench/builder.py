@@ -17,7 +17,7 @@ from shapewright.building.clock import COMPILING, TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.building.worker import attend, build, limit_memory
 from shapewright.parameters import Parameters, to_record
-from shapewright.procedures import Procedure, ProcedureError, author_line, load_procedure
+from shapewright.procedures import Procedure, ProcedureError, describe, load_procedure, place_of
 from shapewright.shapes import Mesh
 from shapewright.studio.bench.built import Built, Version
 
@@ -40,9 +40,9 @@ def try_build(
                 return Built(Build(parameters, None, Failure("no shape", much), made.seconds))
             return Built(made, procedure.space.active(parameters), procedure.space.at_limit(parameters))
     except TimeLimit as error:
-        return Built(Build(dict(values), None, Failure("time", author_line(error, procedure.path))))
+        return Built(Build(dict(values), None, Failure("time", describe(error), place_of(error, procedure.path))))
     except ValueError as error:  # a `when` failed
-        return Built(Build(dict(values), None, Failure("raised", f"{procedure.where}: {error}")))
+        return Built(Build(dict(values), None, Failure("raised", str(error), procedure.place)))
 
 
 def serve(connection: Connection) -> None:
@@ -55,10 +55,10 @@ def serve(connection: Connection) -> None:
             procedure = load_procedure(target)
             version = _version(procedure)
     except TimeLimit as error:
-        connection.send(Failure("time", author_line(error, Path(target))))
+        connection.send(Failure("time", describe(error), place_of(error, Path(target))))
         return
     except ProcedureError as error:
-        connection.send(Failure("raised", str(error)))
+        connection.send(Failure("raised", error.message, error.place))
         return
     limit_memory(limits.memory_mb)
     connection.send(version)

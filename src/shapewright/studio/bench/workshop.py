@@ -15,7 +15,7 @@ from shapewright.parameters import Value
 from shapewright.procedures import ProcedureError
 from shapewright.studio.bench.builder import LOADING_SECONDS
 from shapewright.studio.bench.built import Built, Version
-from shapewright.studio.wire.problems import Problem, problem, syntax_problem
+from shapewright.studio.wire.problems import Problem, of_error, syntax_problem
 
 _PROGRAM = "shapewright.studio.bench.builder"
 _PATIENCE = LOADING_SECONDS + 5.0
@@ -52,9 +52,7 @@ class Workshop:
         try:
             version = self._start(path, limits)
         except ProcedureError as error:
-            late = "took longer than" in str(error) or "did not answer within" in str(error)
-            kind = "time" if late else "load"
-            raise Broken(problem(kind, str(error), path.parent)) from error
+            raise Broken(of_error(error, "time" if error.kind == "time" else "load", path.parent)) from error
         self._path, self._limits = path, limits
         return version
 
@@ -65,7 +63,7 @@ class Workshop:
             try:
                 self._start(self._path, self._limits)
             except ProcedureError as error:
-                raise Broken(problem("load", str(error), self._path.parent)) from error
+                raise Broken(of_error(error, "load", self._path.parent)) from error
         assert self._worker is not None
         answer: Built | Failure = self._worker.exchange(dict(values), self.interrupt)
         if isinstance(answer, Built):

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Any, TextIO
 
 from shapewright.progress import Progress
-from shapewright.studio.jobs.fit_job import collection, streams, tell
+from shapewright.studio.jobs.fit_job import collection, fail, streams, tell
 from shapewright.studio.project.listing import Origin
 
 
@@ -41,8 +40,7 @@ def main() -> None:
     try:
         explain(run, Origin(**request["origin"]), events)
     except (ProcedureError, CollectionError, RunError, KeyError, ValueError, OSError) as error:
-        tell(events, event="failed", kind="explain", message=str(error))
-        sys.exit(1)
+        fail(events, error, "explain", request["root"])
     tell(events, event="done", result={"run": run.name})
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 import time
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -13,7 +12,7 @@ from urllib.parse import quote
 
 from shapewright.runs.folder import read_record
 from shapewright.storage import remove_leftovers, scratch_folder, whole_file
-from shapewright.studio.jobs.fit_job import streams, tell
+from shapewright.studio.jobs.fit_job import fail, streams, tell
 
 _KEPT = 5
 """Exports that are left in the project's scratch folder; older ones are deleted."""
@@ -101,8 +100,7 @@ def main() -> None:
     try:
         file = pack(request, events)
     except (ProcedureError, RunError, ValueError, OSError) as error:
-        tell(events, event="failed", kind="export", message=str(error))
-        sys.exit(1)
+        fail(events, error, "export", request["root"])
     url = f"/api/exports/{quote(file.name)}"
     tell(events, event="done", result={"url": url, "bytes": file.stat().st_size})
 

@@ -10,10 +10,11 @@ import threading
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 from shapewright.progress import Progress
 from shapewright.studio.project.listing import Origin, listing
+from shapewright.studio.wire.problems import of_error
 
 if TYPE_CHECKING:
     from shapewright.references import Collection
@@ -51,6 +52,12 @@ def tell(events: TextIO, **event: Any) -> None:
     events.flush()
 
 
+def fail(events: TextIO, error: Exception, kind: str, root: str) -> NoReturn:
+    """End the program with the problem that an error is. root: folder that the author's file is named relative to."""
+    tell(events, event="failed", problem=of_error(error, kind, Path(root)).record())
+    sys.exit(1)
+
+
 def collection(origin: Origin) -> Collection:
     """The references of a project, but for those that lead out of it. Raises CollectionError."""
     from shapewright.references import Collection
@@ -77,7 +84,7 @@ def fit(request: Mapping[str, Any], events: TextIO) -> str:
 
     def listen(progress: Progress) -> None:
         if progress.answer is not None:
-            tell(events, event="answer", remark=progress.remark, answer=dict(progress.answer))
+            tell(events, event="answer", kind=progress.answer_kind, answer=dict(progress.answer))
             return
         told = {name: getattr(progress, name) for name in ("stage", "done", "total", "remark")}
         tell(events, event="progress", **told, losses=progress.losses)
@@ -119,6 +126,13 @@ def _key(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
+def _kind(error: Exception) -> str:
+    from shapewright.procedures import ProcedureError
+    from shapewright.references import CollectionError
+
+    return {ProcedureError: "load", CollectionError: "references"}.get(type(error), "fit")
+
+
 def main() -> None:
     from shapewright.procedures import ProcedureError
     from shapewright.references import CollectionError
@@ -127,15 +141,8 @@ def main() -> None:
     request, events = streams()
     try:
         name = fit(request, events)
-    except ProcedureError as error:
-        tell(events, event="failed", kind="load", message=str(error))
-        sys.exit(1)
-    except CollectionError as error:
-        tell(events, event="failed", kind="references", message=str(error))
-        sys.exit(1)
-    except (RunError, ValueError, OSError) as error:
-        tell(events, event="failed", kind="fit", message=str(error))
-        sys.exit(1)
+    except (ProcedureError, CollectionError, RunError, ValueError, OSError) as error:
+        fail(events, error, _kind(error), request["root"])
     tell(events, event="done", result={"run": name})
 
 

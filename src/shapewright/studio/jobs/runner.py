@@ -14,7 +14,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from shapewright.studio.wire.problems import Problem, problem
+from shapewright.progress import AnswerKind
+from shapewright.studio.wire.problems import Problem
 
 Kind = Literal["fit", "explain", "export"]
 State = Literal["idle", "running", "cancelling", "done", "cancelled", "failed"]
@@ -61,7 +62,7 @@ class Job:
     state: State = "idle"
     stages: list[dict[str, Any]] = field(default_factory=list)
     curve: list[dict[str, Any]] = field(default_factory=list)
-    answer: str | None = None
+    answer: AnswerKind | None = None
     problem: Problem | None = None
     result: dict[str, Any] | None = None
     _started: float = 0.0
@@ -101,7 +102,7 @@ class Job:
         await asyncio.wait([self._task])
 
     async def _run(self, arguments: list[str], request: dict[str, Any]) -> None:
-        failed: dict[str, Any] = {"kind": self.kind, "message": ""}
+        failed: Problem | None = None
         try:
             self._process = process = await spawn(*arguments)
             if self.state == "cancelling":
@@ -109,29 +110,27 @@ class Job:
             assert process.stdin and process.stdout
             with contextlib.suppress(ConnectionError):
                 # The pipe stays open: when it closes, the program knows that the studio has gone.
-                process.stdin.write(json.dumps(request).encode() + b"\n")
+                process.stdin.write(json.dumps({**request, "root": str(self.root)}).encode() + b"\n")
                 await process.stdin.drain()
             async for line in process.stdout:
                 event = _parsed(line)
-                if event.get("event") == "failed" or "error" in event:
-                    failed = {"kind": event.get("kind", self.kind), "message": event.get("message", event.get("error"))}
+                if event.get("event") == "failed":
+                    failed = Problem.from_record(event["problem"])
                 elif self.state == "running":
                     self._take(event)
             status = await process.wait()
             await end(process)  # its own workers, where they still run
-            failed["message"] = failed["message"] or f"it ended with status {status}; the terminal says more"
-            ok = status == 0
+            if status != 0 and failed is None:
+                failed = Problem(self.kind, f"it ended with status {status}; the terminal says more")
         except OSError as error:
-            failed["message"], ok = f"it could not be started: {error}", False
+            failed = Problem(self.kind, f"it could not be started: {error}")
         finally:
             self._process = None
             self._seconds = time.monotonic() - self._started
         if self.state == "cancelling":
             self.state = "cancelled"
-        elif ok:
-            self.state = "done"
         else:
-            self.state, self.problem = "failed", problem(failed["kind"], failed["message"], self.root)
+            self.state, self.problem = "failed" if failed else "done", failed
         if self.stages:
             self.stages[-1]["seconds"] = round(time.monotonic() - self._stage_started, 2)
         self.changed(self)
@@ -141,7 +140,7 @@ class Job:
         if kind == "progress":
             self._advance(event)
         elif kind == "answer":
-            self.answer = event["remark"]
+            self.answer = event["kind"]
             self.told(event)
         elif kind == "done":
             self.result = event["result"]

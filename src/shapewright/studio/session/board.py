@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
+from shapewright.building.outcomes import Failure
 from shapewright.judging.metric import Metric, light_field
 from shapewright.parameters import Parameters
 from shapewright.report.page import colour
@@ -170,16 +171,13 @@ def _filled(tile: Tile, entry: Record, pictures: Pictures, folder: Path) -> Tile
         parameters=entry["parameters"],
         active=tuple(entry["active"]),
         at_limit=tuple(entry["at_limit"]),
-        problem=_problem(entry["error"], tile.slug),
+        problem=_problem(entry["error"], tile.slug) if entry["error"] else None,
     )
 
 
-def _problem(error: str | None, slug: str) -> Problem | None:
-    if not error:
-        return None
-    kind, _, message = error.partition(": ")
-    known = ("infeasible", "raised", "no shape", "time", "memory", "crash")
-    return Problem(kind, message, slugs=(slug,)) if kind in known else Problem("no shape", error, slugs=(slug,))
+def _problem(error: str, slug: str) -> Problem:
+    failure = Failure.parse(error)
+    return Problem(failure.kind, failure.message, slugs=(slug,))
 
 
 def _groups(groups: Sequence[Record], slugs: Mapping[str, str]) -> Iterable[Record]:

@@ -9,6 +9,7 @@ from importlib.metadata import version
 from typing import Any
 
 from shapewright.judging.metric import Metric, fidelity, light_field
+from shapewright.progress import AnswerKind
 from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import RunError
 from shapewright.runs.marks import pairs, replace_pairs
@@ -25,7 +26,7 @@ from shapewright.studio.session.pages import Page, Pages
 from shapewright.studio.session.showing import Showing
 from shapewright.studio.wire.problems import Problem
 
-_STAGES: Mapping[str, Stage] = {"most similar samples": "early", "predicted": "predicted"}
+_STAGES: Mapping[AnswerKind, Stage] = {"most similar samples": "early", "predicted": "predicted"}
 _PATIENCE = 2.0
 """Seconds for which a fit after a save waits until the replicas of the new version are shown."""
 _SOURCES = ("bench", "project", "procedure", "references", "fit", "explain", "export", "shapes")
@@ -330,10 +331,10 @@ class Session:
     # What jobs say
 
     def _job_told(self, event: Message) -> None:
-        if event["event"] == "answer" and event["remark"] in _STAGES:
+        if event["event"] == "answer" and event["kind"] in _STAGES:
             slugs = self.showing.slugs()
             items = {slugs[name]: values for name, values in event["answer"].items() if name in slugs}
-            self._sweep(_STAGES[event["remark"]], items)
+            self._sweep(_STAGES[event["kind"]], items)
 
     def _job_changed(self, job: Job) -> None:
         self.pages.publish("job", job=job.record())

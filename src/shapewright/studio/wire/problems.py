@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -10,10 +9,7 @@ from typing import Any
 
 from shapewright.building.outcomes import Failure
 from shapewright.parameters import Parameters
-
-# What author_line, load_procedure and Procedure.where write: FILE:LINE, perhaps the function, the message, the line.
-_POINTED = re.compile(r"(?P<file>(?:[A-Za-z]:[/\\])?[^:\n]+?\.py):(?P<line>\d+)(?:, \w+\(\))?: ")
-_QUOTED = re.compile(r"(?P<message>.*?)(?:  \((?P<text>.*)\))?", re.S)
+from shapewright.procedures import Place, ProcedureError
 
 
 @dataclass(frozen=True)
@@ -39,24 +35,25 @@ class Problem:
         return cls(**{**known, "slugs": tuple(record.get("slugs", ()))})
 
 
-def problem(kind: str, message: str, root: Path, parameters: Parameters | None = None) -> Problem:
-    """Take a message of ours apart; the file is named relative to ``root``. Where it does not begin with a place but
-    holds one, it stays whole."""
-    found = _POINTED.search(message)
-    if not found:
-        return Problem(kind, message, parameters=parameters)
-    file = Path(found["file"].strip())
-    name = file.relative_to(root).as_posix() if file.is_relative_to(root) else str(file)
-    if found.start():
-        return Problem(kind, message, name, int(found["line"]), parameters=parameters)
-    rest = _QUOTED.fullmatch(message[found.end() :])
-    assert rest is not None
-    return Problem(kind, rest["message"], name, int(found["line"]), rest["text"], parameters=parameters)
+def of_error(error: Exception, kind: str, root: Path) -> Problem:
+    """Of an error that was raised; the author's file is named relative to ``root``."""
+    if not isinstance(error, ProcedureError):
+        return Problem(kind, str(error))
+    found = _placed(kind, error.message, error.place, root)
+    return replace(found, text=None) if error.summary else found
 
 
 def of_failure(failure: Failure, root: Path, parameters: Parameters | None = None) -> Problem:
-    """Of a shape that could not be built."""
-    return problem(failure.kind, failure.message, root, parameters)
+    """Of a shape that could not be built; the author's file is named relative to ``root``."""
+    return replace(_placed(failure.kind, failure.message, failure.place, root), parameters=parameters)
+
+
+def _placed(kind: str, message: str, place: Place | None, root: Path) -> Problem:
+    if place is None:
+        return Problem(kind, message)
+    file = Path(place.file)
+    name = file.relative_to(root).as_posix() if file.is_relative_to(root) else place.file
+    return Problem(kind, message, name, place.line, place.text)
 
 
 def syntax_problem(path: Path, root: Path) -> Problem | None:
