@@ -24,7 +24,8 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.building import Workers
-from shapewright.feedback.causes.longer_search import Found, Searcher
+from shapewright.feedback.case import Replica
+from shapewright.feedback.causes.replicas import measured, nearest_replicas
 from shapewright.feedback.explanation import explain
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import Solid, box, cylinder, sphere
@@ -165,16 +166,19 @@ def made(
     judge = Judge.of(references, settings)
     rows = list(range(len(references)))
     with Workers(procedure, settings.workers) as crew:
-        searcher = Searcher(space, crew, judge, settings.seed)
-        known = [Found(values, sw.Mesh(np.zeros((0, 3)), np.zeros((0, 3), int)), np.inf) for values in start]
-        known = [new or old for new, old in zip(searcher.measured(rows, start), known, strict=True)]
+        nothing = sw.Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))
+        asked = list(zip(rows, start, strict=True))
+        known = [
+            replica or Replica(row, values, nothing, np.inf)
+            for replica, (row, values) in zip(measured(asked, crew, judge), asked, strict=True)
+        ]
         if not case.spoil:
             encoded = np.array([space.encode(values) for values in start], dtype=np.float32)
             inferred = [
                 np.full((len(rows), p.classes), 1.0 / p.classes, np.float32) if p.classes else encoded[:, i]
                 for i, p in enumerate(space)
             ]
-            known = searcher.longer(rows, inferred, known, QUICK)
+            known = nearest_replicas(known, inferred, crew, judge, QUICK)
     results = tuple(
         Result(
             name=reference.name,
@@ -236,7 +240,7 @@ def main() -> None:
             )
             if arguments.verbose:
                 for each in concerned:
-                    print(f"    {each.name} {each.found.distance:.2f} {each.best.distance:.2f}", end=" ")
+                    print(f"    {each.name} {each.replica.distance:.2f} {each.covering.distance:.2f}", end=" ")
                     print(" | ".join(f"{cause.kind}: {cause.text}" for cause in each.causes))
     print("\n| cause | told | rightly | precision | right ones | recall |\n|---|---|---|---|---|---|")
     for kind in dict.fromkeys(case.right[0] for case in CASES):

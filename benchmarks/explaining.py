@@ -17,7 +17,6 @@ from pathlib import Path
 import shapewright as sw
 from causes import WHOLE, Case, made
 from shapewright.feedback.explanation import explain
-from shapewright.feedback.suggestions import suggestion_records
 from shapewright.judging.judge import Judge
 
 
@@ -43,9 +42,9 @@ def main() -> None:
         Judge.of(references, settings, Path(folder))
         few = [result.name for result in iteration.results if not result.compatible][:2]
         explain(procedure, references, replace(iteration, results=tuple(iteration[name] for name in few)))
-        for name, hook in (("causes", None), ("causes and suggestions", suggestion_records)):
+        for name, suggest in (("causes", False), ("causes and suggestions", True)):
             started, spent = time.perf_counter(), cpu_seconds()
-            explanation = explain(procedure, references, iteration, cache=Path(folder), suggest=hook)
+            explanation = explain(procedure, references, iteration, cache=Path(folder), suggest=suggest)
             seconds, spent = time.perf_counter() - started, cpu_seconds() - spent
             stages = ", ".join(f"{stage} {stage_seconds:.1f}" for stage, stage_seconds in explanation.seconds.items())
             print(f"{name}: {seconds:.1f} s, {spent:.1f} CPU s ({stages})", flush=True)

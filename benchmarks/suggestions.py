@@ -21,6 +21,7 @@ import re
 import sys
 import tempfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -28,9 +29,10 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.building import Build, Workers
-from shapewright.feedback.causes.longer_search import Found, Searcher
-from shapewright.feedback.explanation import Explained, explain
-from shapewright.feedback.suggestions import Suggestion, suggest
+from shapewright.feedback.case import Case, Replica
+from shapewright.feedback.causes.replicas import covering_replicas, measured, nearest_replicas
+from shapewright.feedback.explanation import explain
+from shapewright.feedback.suggestions import suggestions
 from shapewright.feedback.surfaces.placement import Overlay, place
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible import Surface
@@ -134,25 +136,27 @@ def _near(a: object, b: object) -> bool:
 
 def searched(
     procedure: sw.Procedure, builds: list[Build], crew: Workers, settings: sw.Settings
-) -> list[tuple[Build, Found]]:
-    """The shapes that a search from what can be taken over of the truth does not replicate, and the nearest found."""
-    space, rows = procedure.space, list(range(len(builds)))
-    searcher = Searcher(space, crew, Judge.of(gathered(builds), settings), settings.seed)
+) -> list[tuple[Build, Replica]]:
+    """The shapes that a search from the parameters taken over does not replicate, and their nearest replicas."""
+    space, judge = procedure.space, Judge.of(gathered(builds), settings)
     starts = [space.carry(build.parameters) for build in builds]
-    measured = zip(searcher.measured(rows, starts), starts, strict=True)
-    known = [found or Found(start, NOTHING, np.inf) for found, start in measured]
-    best = searcher.longer(rows, doubtful(space, starts), known)
-    return [(b, found) for b, found in zip(builds, best, strict=True) if found.distance > settings.threshold]
+    asked = list(enumerate(starts))
+    known = [
+        replica or Replica(row, start, NOTHING, np.inf)
+        for replica, (row, start) in zip(measured(asked, crew, judge), asked, strict=True)
+    ]
+    best = nearest_replicas(known, doubtful(space, starts), crew, judge)
+    return [(b, replica) for b, replica in zip(builds, best, strict=True) if replica.distance > settings.threshold]
 
 
-def explained(procedure: sw.Procedure, lost: list[tuple[Build, Found]], crew: Workers, judge: Judge) -> list[Explained]:
-    """What is lost, each with the shape that has most of its surface in common."""
-    references, rows = judge.references.references, list(range(len(lost)))
-    nearest = [found for _, found in lost]
-    overlays = {row: overlay(references[row].shape, nearest[row].mesh) for row in rows}
-    inferred = doubtful(procedure.space, [procedure.space.carry(build.parameters) for build, _ in lost])
-    laid = Searcher(procedure.space, crew, judge, judge.settings.seed).laid(rows, inferred, nearest, overlays)
-    return [lost_one(references[row], row, nearest[row], laid[row]) for row in rows]
+def explained(procedure: sw.Procedure, lost: list[tuple[Build, Replica]], crew: Workers, judge: Judge) -> list[Case]:
+    """What is lost, each with the replica that has most of its surface in common."""
+    references = judge.references.references
+    known = [replace(replica, row=row) for row, (_, replica) in enumerate(lost)]
+    overlays = [overlay(references[replica.row].shape, replica.mesh) for replica in known]
+    prediction = doubtful(procedure.space, [procedure.space.carry(build.parameters) for build, _ in lost])
+    covering = covering_replicas(known, overlays, prediction, crew, judge)
+    return [lost_one(references[near.row], near, like) for near, like in zip(known, covering, strict=True)]
 
 
 def gathered(builds: list[Build]) -> sw.Collection:
@@ -177,9 +181,10 @@ def doubtful(space, starts) -> list[np.ndarray]:
     return columns
 
 
-def lost_one(reference, row: int, nearest: Found, like: Found) -> Explained:
-    misfit = residuals(reference.shape, like.mesh)
-    return Explained(reference.name, row, reference.shape, False, nearest, misfit, nearest, like, misfit)
+def lost_one(reference, nearest: Replica, covering: Replica) -> Case:
+    where = residuals(reference.shape, covering.mesh)
+    case = Case.of(reference.name, reference.shape, False, nearest, where)
+    return replace(case, covering=covering)
 
 
 def rules(arguments: argparse.Namespace) -> None:
@@ -215,7 +220,7 @@ def rule(name: str, example: Path, edit: Edit, arguments: argparse.Namespace) ->
                 lost += searched(procedure, batch, crew, settings)
                 tried += len(batch)
             judge = Judge.of(gathered([build for build, _ in lost]), settings)
-            made = suggest(procedure, explained(procedure, lost, crew, judge), crew, judge, limit=5) if lost else ()
+            made = suggestions(procedure, explained(procedure, lost, crew, judge), crew, judge) if lost else ()
     keep(arguments.out, re.sub(r"\W+", "-", name), made)
     told = [{"kind": s.kind, "title": s.title, "gain": s.gain, "after": s.tried["after"]} for s in made]
     seconds = cpu_seconds() - before
@@ -242,9 +247,8 @@ def steps(arguments: argparse.Namespace) -> None:
             counts = [sum(n.startswith(f"{s}|") for n in iteration.compatible) for s in loaded]
             cells = ", ".join(f"{count} of {len(refs)}" for count, refs in zip(counts, loaded.values(), strict=True))
             print(f"step {step}: {len(iteration.compatible)} of {len(references)} ({cells})", end="", flush=True)
-            made: list[Suggestion] = []
-            if step < arguments.steps:
-                explain(procedure, references, iteration, suggest=recording(made))
+            last = step == arguments.steps
+            made = () if last else explain(procedure, references, iteration, suggest=True).suggestions
             if not made:
                 print()
                 break
@@ -256,14 +260,6 @@ def steps(arguments: argparse.Namespace) -> None:
 
 
 FAST = {"samples": 1200, "epochs": 6}
-
-
-def recording(made: list[Suggestion]):
-    def hook(procedure, wanting, crew, judge, stages):
-        made.extend(suggest(procedure, wanting, crew, judge, stages))
-        return [suggestion.record for suggestion in made]
-
-    return hook
 
 
 def keep(out: Path | None, stem: str, made) -> None:

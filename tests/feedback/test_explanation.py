@@ -7,8 +7,12 @@ import pytest
 
 import shapewright as sw
 from shapewright.building import Workers
-from shapewright.feedback.causes.longer_search import Searcher
+from shapewright.feedback.case import Case
+from shapewright.feedback.causes.replicas import measured, with_choices_kept
 from shapewright.feedback.explanation import explain
+from shapewright.feedback.record import record_of
+from shapewright.feedback.suggestions import Suggestion
+from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import box
 from shapewright.runs.result import Result
@@ -36,7 +40,7 @@ def table(
 @pytest.fixture(scope="module", autouse=True)
 def _brief_searches():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("shapewright.feedback.causes.longer_search.EVALUATIONS", 1500)
+        patch.setattr("shapewright.feedback.causes.replicas.EVALUATIONS", 1500)
         yield
 
 
@@ -50,9 +54,8 @@ def procedure(tmp_path_factory):
 def iteration_of(procedure, references, vectors, settings):
     """As if these vectors had been found."""
     judge = Judge.of(references, settings)
-    rows = range(len(references))
     with Workers(procedure, 1) as crew:
-        found = Searcher(procedure.space, crew, judge).measured(rows, [vectors[name] for name in references.names])
+        found = measured([(row, vectors[name]) for row, name in enumerate(references.names)], crew, judge)
     results = tuple(
         Result(
             name=reference.name,
@@ -132,9 +135,9 @@ def test_a_range_that_ends_too_soon(explanation):
     (wish,) = cause.evidence["wishes"]
     assert wish["parameter"] == "height" and wish["side"] == "high" and wish["end"] == 0.8
     assert wish["value"] > 0.95 and cause.evidence["enough"]
-    shared = next(entry for entry in explanation.summary if entry["kind"] == "out of range")
-    assert shared["text"].startswith("height: 1 reference wants up to ") and shared["references"] == ["tall"]
-    assert "Range ends at 0.8" in shared["text"]
+    shared = next(entry for entry in explanation.summary if entry.kind == "out of range")
+    assert shared.text.startswith("height: 1 reference wants up to ") and shared.references == ("tall",)
+    assert "Range ends at 0.8" in shared.text
 
 
 def test_a_missing_part_and_a_surplus_one(explanation):
@@ -152,7 +155,7 @@ def test_legs_that_lean_are_another_form_of_them(explanation):
 
 
 def test_the_record_is_plain_and_whole(explanation):
-    record = json.loads(json.dumps(explanation.record, allow_nan=False))
+    record = json.loads(json.dumps(record_of(explanation), allow_nan=False))
     assert set(record["references"]) == set(explanation.references)
     shelved = record["references"]["shelved"]
     assert {"kind", "text", "evidence"} <= set(shelved["causes"][0])
@@ -162,18 +165,19 @@ def test_the_record_is_plain_and_whole(explanation):
     assert record["suggestions"] == [] and shelved["placement"]["scale"] > 0
 
 
-def test_only_what_no_parameters_solve_is_asked_suggestions_for(procedure):
+def test_only_what_no_parameters_solve_is_asked_suggestions_for(procedure, monkeypatch):
     references = sw.Collection.of({"tall": procedure(1.15, 0.6, "post"), "post": procedure(0.6, 0.6, "post")})
     vectors = {name: {"height": 0.6, "breadth": 0.6, "legs": "four"} for name in references.names}
     settings = sw.Settings(workers=1, threshold=0.12)
     asked = []
 
-    def suggest(procedure, wanting, crew, judge, stages):
-        asked.extend(each.name for each in wanting)
-        return [{"kind": "range", "title": "longer"}]
+    def suggestions(procedure, cases, crew, judge, stages):
+        asked.extend(case.name for case in cases)
+        return (Suggestion("range", "longer", "", "", "", b"", ("tall",)),)
 
-    found = explain(procedure, references, iteration_of(procedure, references, vectors, settings), suggest=suggest)
-    assert asked == ["tall"] and found.suggestions[0]["title"] == "longer"
+    monkeypatch.setattr("shapewright.feedback.explanation.suggestions", suggestions)
+    found = explain(procedure, references, iteration_of(procedure, references, vectors, settings), suggest=True)
+    assert asked == ["tall"] and found.suggestions[0].title == "longer"
 
 
 def test_choices_stay_where_other_numbers_do_as_well(procedure):
@@ -181,11 +185,19 @@ def test_choices_stay_where_other_numbers_do_as_well(procedure):
     references = sw.Collection.of({"four": procedure(0.6, 0.5, "four"), "post": procedure(0.6, 0.5, "post")})
     judge = Judge.of(references, sw.Settings(workers=1, threshold=0.05))
     with Workers(procedure, 1) as crew:
-        searcher = Searcher(procedure.space, crew, judge)
-        before = searcher.measured([0, 1], [{"height": 0.6, "breadth": 0.9, "legs": "four"}] * 2)
-        best = searcher.measured([0, 1], [{"height": 0.6, "breadth": 0.5, "legs": legs} for legs in ("four", "post")])
+        before = measured([(row, {"height": 0.6, "breadth": 0.9, "legs": "four"}) for row in (0, 1)], crew, judge)
+        best = measured(
+            [(row, {"height": 0.6, "breadth": 0.5, "legs": legs}) for row, legs in enumerate(("four", "post"))],
+            crew,
+            judge,
+        )
         as_good = [replace(best[0], parameters={**best[0].parameters, "legs": "post"}), best[1]]
-        found = searcher.chosen([0, 1], before, as_good)
+        cases = [
+            Case.of(reference.name, reference.shape, False, old, residuals(reference.shape, old.mesh))
+            for reference, old in zip(references, before, strict=True)
+        ]
+        cases = [replace(case, nearest=new) for case, new in zip(cases, as_good, strict=True)]
+        found = with_choices_kept(cases, crew, judge)
     assert [each.parameters["legs"] for each in found] == ["four", "post"]
     assert all(each.distance <= 0.05 for each in found)
 

@@ -7,9 +7,10 @@ import pytest
 
 import shapewright as sw
 from shapewright.building import Workers
-from shapewright.feedback.causes.longer_search import Found
-from shapewright.feedback.explanation import Explained
-from shapewright.feedback.suggestions import suggest
+from shapewright.feedback.case import Case, Replica
+from shapewright.feedback.explanation import Explanation
+from shapewright.feedback.record import record_of
+from shapewright.feedback.suggestions import suggestions
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import box
@@ -47,12 +48,12 @@ def suggested(table, shapes, vectors, monkeypatch):
     with Workers(table, 1) as crew:
         builds = crew.build(vectors)
         distances = judge.distances(builds)
-        wanting = []
+        cases = []
         for row, (reference, build, distance) in enumerate(zip(references, builds, distances, strict=True)):
-            found = Found(build.parameters, build.shape, float(distance))
-            misfit = residuals(reference.shape, build.shape)
-            wanting.append(Explained(reference.name, row, reference.shape, False, found, misfit, found, found, misfit))
-        return suggest(table, wanting, crew, judge, limit=3), distances
+            replica = Replica(row, build.parameters, build.shape, float(distance))
+            where = residuals(reference.shape, build.shape)
+            cases.append(Case.of(reference.name, reference.shape, False, replica, where))
+        return suggestions(table, cases, crew, judge, limit=3), distances
 
 
 def with_block(table, height, depth):
@@ -76,7 +77,7 @@ def test_a_missing_part_is_suggested_tried_and_runs_when_pasted(table, tmp_path,
         for name, parameters in best.tried["parameters"].items():
             assert sw.light_field.distance(changed(**parameters), shapes[name]) <= 0.18
         assert len(changed().faces) == len(table().faces)
-    record = json.loads(json.dumps(best.record))
+    (record, *_) = json.loads(json.dumps(record_of(Explanation({}, (), made))))["suggestions"]
     assert base64.b64decode(record["picture"]).startswith(b"\x89PNG") and record["gain"] == 3
 
 

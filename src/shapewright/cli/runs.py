@@ -39,8 +39,7 @@ def explain(
     """Say where and why replicas differ from their references, and what to write next; renews the run's report."""
     from shapewright.cli.console import print_explanation, print_json, progress_bars
     from shapewright.feedback.explanation import explain as explain_iteration
-    from shapewright.feedback.record import write
-    from shapewright.feedback.suggestions import suggestion_records
+    from shapewright.feedback.record import record_of, write
     from shapewright.runs.inputs import procedure_of, references_of
     from shapewright.runs.iteration import Iteration
 
@@ -49,12 +48,13 @@ def explain(
     procedure, collection = procedure_of(run, iteration), references_of(run, iteration, references)
     try:
         with progress_bars(err) as listen:
-            suggest = suggestion_records if suggestions else None
-            found = explain_iteration(procedure, collection, iteration, listen, cache_folder(), suggest, workers)
+            explanation = explain_iteration(
+                procedure, collection, iteration, listen, cache_folder(), suggestions, workers
+            )
     except KeyboardInterrupt:
         err.print("stopped: the run is as it was")
         raise typer.Exit(130) from None
-    record = write(run, found.record, previous_run(run, set(iteration.names)))
+    record = write(run, record_of(explanation), previous_run(run, set(iteration.names)))
     if json:
         print_json({"run": str(run), "report": str(run / "report.html"), **record})
     else:
@@ -139,8 +139,7 @@ def explanation_of(
 ) -> Callable[[Path], object]:
     """Explain an iteration that is not saved yet; what is returned writes that into its folder."""
     from shapewright.feedback.explanation import explain as explain_iteration
-    from shapewright.feedback.record import write_into
-    from shapewright.feedback.suggestions import suggestion_records
+    from shapewright.feedback.record import record_of, write_into
 
-    record = explain_iteration(procedure, references, iteration, progress, cache_folder(), suggestion_records).record
+    record = record_of(explain_iteration(procedure, references, iteration, progress, cache_folder(), suggest=True))
     return lambda folder: write_into(folder, record)

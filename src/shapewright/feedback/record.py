@@ -9,10 +9,28 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from shapewright.feedback.case import Case
+from shapewright.feedback.causes.shared import SharedCause
+from shapewright.feedback.explanation import Explanation
+from shapewright.feedback.suggestions import Suggestion
+from shapewright.feedback.surfaces.residuals import Region
 from shapewright.report import write_report
 from shapewright.report.explained import EXPLANATION, PICTURES
 from shapewright.runs.folder import RunError
 from shapewright.storage import scratch_folder
+
+
+def record_of(explanation: Explanation) -> dict[str, Any]:
+    """An explanation as plain values for ``explanation.json``; pictures in base64."""
+    return {
+        "format": 1,
+        "references": {name: _case(case) for name, case in explanation.references.items()},
+        "summary": [_shared(cause) for cause in explanation.summary],
+        "suggestions": [_suggestion(suggestion) for suggestion in explanation.suggestions],
+        "seconds": {stage: round(seconds, 2) for stage, seconds in explanation.seconds.items()},
+    }
 
 
 def write_into(folder: Path, record: Mapping[str, Any]) -> dict[str, Any]:
@@ -20,16 +38,16 @@ def write_into(folder: Path, record: Mapping[str, Any]) -> dict[str, Any]:
 
     Pictures of suggestions are given in base64 and become files, whose paths in the folder replace them.
     """
-    told = {**record, "suggestions": [dict(suggestion) for suggestion in record["suggestions"]]}
-    for number, suggestion in enumerate(told["suggestions"], start=1):
+    written = {**record, "suggestions": [dict(suggestion) for suggestion in record["suggestions"]]}
+    for number, suggestion in enumerate(written["suggestions"], start=1):
         picture = suggestion.get("picture")
         if picture:
             (folder / PICTURES).mkdir(exist_ok=True)
             path = f"{PICTURES}/{number}.png"
             (folder / path).write_bytes(base64.b64decode(picture))
             suggestion["picture"] = path
-    (folder / EXPLANATION).write_text(json.dumps(told, indent=1, allow_nan=False), encoding="utf-8")
-    return told
+    (folder / EXPLANATION).write_text(json.dumps(written, indent=1, allow_nan=False), encoding="utf-8")
+    return written
 
 
 def write(run: Path, record: Mapping[str, Any], previous: Path | None = None) -> dict[str, Any]:
@@ -41,11 +59,71 @@ def write(run: Path, record: Mapping[str, Any], previous: Path | None = None) ->
     """
     try:
         with scratch_folder(run / EXPLANATION) as partial:
-            told = write_into(partial, record)
+            written = write_into(partial, record)
             write_report(run, previous, partial)
             shutil.rmtree(run / PICTURES, ignore_errors=True)
             for path in partial.iterdir():
                 path.replace(run / path.name)
     except OSError as error:
         raise RunError(f"{run}: the explanation cannot be written: {error.strerror or error}") from error
-    return told
+    return written
+
+
+def _case(case: Case) -> dict[str, Any]:
+    """Its regions are what of the reference no parameters account for, and what of the iteration's replica is too much.
+
+    The weightiest come first. The placement takes the replica's own normalised units to the reference's.
+    """
+    own, placed = case.replica.mesh.normalisation(), case.residuals.placement
+    regions = [*case.covering_residuals.of("unexplained"), *case.residuals.of("surplus")]
+    return {
+        "causes": [{"kind": c.kind, "text": c.text, "evidence": dict(c.evidence)} for c in case.causes],
+        "regions": [_region(region) for region in sorted(regions, key=lambda region: -region.weight)],
+        "placement": {
+            "centre": _rounded((np.array(placed.centre) - own.centre) * own.scale),
+            "scale": round(placed.scale / own.scale, 5),
+        },
+    }
+
+
+def _region(region: Region) -> dict[str, Any]:
+    return {
+        "side": region.side,
+        "centre": _rounded(region.centre),
+        "size": _rounded(region.size),
+        "axes": [_rounded(axis) for axis in region.axes],
+        "share": round(region.share, 4),
+        "distance": round(region.distance, 4),
+        "label": region.label,
+        "rule": region.rule,
+    }
+
+
+def _shared(cause: SharedCause) -> dict[str, Any]:
+    record: dict[str, Any] = {
+        "kind": cause.kind,
+        "text": cause.text,
+        "references": list(cause.references),
+        "representative": cause.representative,
+    }
+    if beyond := cause.outside:
+        record |= {"parameter": beyond.parameter, "side": beyond.side, "value": beyond.value, "end": beyond.end}
+    return record
+
+
+def _suggestion(suggestion: Suggestion) -> dict[str, Any]:
+    return {
+        "kind": suggestion.kind,
+        "title": suggestion.title,
+        "text": suggestion.text,
+        "snippet": suggestion.snippet,
+        "source": suggestion.source,
+        "picture": base64.b64encode(suggestion.picture).decode("ascii"),
+        "references": list(suggestion.references),
+        "gain": suggestion.gain,
+        "tried": dict(suggestion.tried),
+    }
+
+
+def _rounded(values: Any) -> list[float]:
+    return [round(float(value), 4) for value in values]

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from shapewright.building import Workers
 from shapewright.comparison.light_field import RAW_SCALE
-from shapewright.feedback.explanation import Explained
+from shapewright.feedback.case import Case
 from shapewright.feedback.ideas.hypotheses import Hypothesis, hypotheses
 from shapewright.feedback.ideas.proposal import Misfit
 from shapewright.feedback.ideas.proposals import proposals
@@ -37,13 +37,19 @@ _PICTURED = 3
 
 @dataclass(frozen=True, eq=False)
 class Suggestion:
-    """A change that makes references compatible, tried.
+    """A change of the author's file that makes references compatible, tried on them.
 
-    kind: "range", "new part", "part replaced", "moved part" or "part removed". title, text: what and for whom.
-    snippet: new and changed definitions, to paste at the end of the file or in place of the old ones; for a Range, the
-    changed lines of the signature. source: the whole changed file. picture: PNG, a row for each of a few references:
-    the reference with what it misses marked, the replica before and after. references: names of those that become
-    compatible. gain: how many they are, less those that are lost. tried: what was measured.
+    Attributes:
+        kind: "range", "new part", "part replaced", "moved part" or "part removed".
+        title: what changes.
+        text: what changes, and for how many references.
+        snippet: new and changed definitions, to paste at the end of the file or in place of the old ones; for a Range,
+            the changed lines of the signature.
+        source: the whole changed file.
+        picture: PNG with a row for each of a few references: the reference with what it misses marked, the replica
+            before and after.
+        references: names of those that become compatible.
+        tried: what was measured.
     """
 
     kind: str
@@ -53,82 +59,66 @@ class Suggestion:
     source: str
     picture: bytes
     references: tuple[str, ...]
-    gain: int
     tried: Mapping[str, Any] = field(default_factory=dict)
 
     @property
-    def record(self) -> dict[str, Any]:
-        """As plain values for JSON, the picture in base64."""
-        return {
-            "kind": self.kind,
-            "title": self.title,
-            "text": self.text,
-            "snippet": self.snippet,
-            "source": self.source,
-            "picture": base64.b64encode(self.picture).decode("ascii"),
-            "references": list(self.references),
-            "gain": self.gain,
-            "tried": dict(self.tried),
-        }
+    def gain(self) -> int:
+        """How many references become compatible; none is lost."""
+        return len(self.references)
 
 
-def suggest(
+def suggestions(
     procedure: Procedure,
-    wanting: Sequence[Explained],
+    cases: Sequence[Case],
     crew: Workers,
     judge: Judge,
     stages: Stages | None = None,
     limit: int = 5,
 ) -> tuple[Suggestion, ...]:
-    """What would make most of the incompatible references compatible, the largest gain first; empty if nothing would.
+    """What would make most of the cases compatible, the largest gain first; empty if nothing would.
 
-    wanting: the incompatible references, explained. crew: builds shapes of the procedure. The same seed gives the same
-    suggestions. References that the procedure can replicate already, as a longer search has shown, are left alone.
+    cases: those that no parameters of the procedure replicate, as a longer search has shown. crew: builds shapes of the
+    procedure. limit: of the number of suggestions. The same seed gives the same suggestions.
     """
-    stages = stages or Stages(None)
-    explained = {each.row: each for each in wanting if each.nearest.distance > judge.settings.threshold}
-    if not explained or not can_edit(procedure.source, procedure.name):
+    if not cases or not can_edit(procedure.source, procedure.name):
         return ()
+    stages = stages or Stages(None)
     stages.begin("hypotheses", 1)
-    misfits = _misfits(list(explained.values()), judge)
+    misfits = _misfits(cases, judge)
     always = _always(procedure.space, crew, judge.settings.seed)
     ideas = proposals(procedure.source, procedure.name, procedure.space, misfits, always)
     stages.begin("trials", 1)
-    known = [(each.found.parameters, each.found.mesh) for each in list(explained.values())[:_KNOWN]]
+    known = [(case.replica.parameters, case.replica.mesh) for case in cases[:_KNOWN]]
     # A part is only ever proposed for misfits that were studied.
     worthy = [idea for idea in ideas if len(idea.starts) > _FEW * min(len(misfits), _STUDIED)]
     evaluations = max(EVALUATIONS - _FEWER * len(misfits), EVALUATIONS // 4)
-    found = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
-    return tuple(_suggestion(each, procedure, explained, judge) for each in found)
+    chosen = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
+    by_row = {case.row: case for case in cases}
+    return tuple(_suggestion(tried, procedure, by_row, judge) for tried in chosen)
 
 
-def suggestion_records(*arguments: Any) -> list[dict[str, Any]]:
-    """Suggestions as records; arguments: see ``suggest``."""
-    return [suggestion.record for suggestion in suggest(*arguments)]
+def _misfits(cases: Sequence[Case], judge: Judge) -> list[Misfit]:
+    """All cases, _STUDIED of them, spread over the collection, with hypotheses."""
+    count = min(_STUDIED, len(cases))
+    studied = {cases[i].row for i in np.linspace(0, len(cases) - 1, count).astype(int)}
 
-
-def _misfits(explained: Sequence[Explained], judge: Judge) -> list[Misfit]:
-    """All misfits, the first _STUDIED of them, spread over the collection, with hypotheses."""
-    count = min(_STUDIED, len(explained))
-    studied = {explained[i].row for i in np.linspace(0, len(explained) - 1, count).astype(int)}
-
-    def study(each: Explained) -> Misfit:
+    def study(case: Case) -> Misfit:
         guesses: list[Hypothesis] = []
-        if each.row in studied:
-            replica = each.best.mesh
-            guesses = hypotheses(each.misfit, each.reference, replica, lambda meshes: _costs(judge, each.row, meshes))
+        if case.row in studied:
+            replica = case.covering.mesh
+            guesses = hypotheses(case.covering_residuals, case.reference, replica, partial(_costs, judge, case.row))
         return Misfit(
-            each.row,
-            each.best.parameters,
-            each.best.mesh,
+            case.row,
+            case.covering.parameters,
+            case.covering.mesh,
             tuple(guesses[:3]),
-            each.nearest.parameters,
+            case.nearest.parameters,
             judge.goal,
-            each.outside.parameters if each.outside else None,
-            each.nearest.distance * RAW_SCALE,
+            case.outside.parameters,
+            case.nearest.distance * RAW_SCALE,
         )
 
-    return in_threads(study, explained, judge.settings.workers)
+    return in_threads(study, cases, judge.settings.workers)
 
 
 def _costs(judge: Judge, row: int, meshes: Sequence[Mesh]) -> list[float]:
@@ -143,37 +133,34 @@ def _always(space: ParameterSpace, crew: Workers, seed: int) -> list[str]:
     return [name for name in (names[0] if names else ()) if all(name in each for each in names)]
 
 
-def _suggestion(found: Tried, procedure: Procedure, explained: Mapping[int, Explained], judge: Judge) -> Suggestion:
+def _suggestion(found: Tried, procedure: Procedure, cases: Mapping[int, Case], judge: Judge) -> Suggestion:
+    """cases: all, by row."""
     idea, trial = found.proposal, found.trial
-    rows = sorted(trial.compatible, key=lambda row: trial.distances[row] - explained[row].nearest.distance)
-    names = tuple(judge.references.names[row] for row in sorted(rows))
-    before = {row: explained[row].nearest.distance for row in rows}
-    examples = [_example(explained[row], trial.replicas[row]) for row in rows[:_PICTURED]]
-    gain = len(names)
+    rows = sorted(trial.compatible, key=lambda row: trial.distances[row] - cases[row].nearest.distance)
+    names = judge.references.names
     return Suggestion(
         idea.kind,
         idea.title,
-        _text(found, procedure, gain, len(explained)),
+        _text(found, procedure, len(rows), len(cases)),
         _snippet(found, procedure),
         found.source,
-        card(examples),
-        names,
-        gain,
+        card([_example(cases[row], trial.replicas[row]) for row in rows[:_PICTURED]]),
+        tuple(names[row] for row in sorted(rows)),
         {
             "tried": len(trial.distances),
-            "compatible": gain,
+            "compatible": len(rows),
             "lost": 0,
-            "before": float(np.mean(list(before.values()))),
+            "before": float(np.mean([cases[row].nearest.distance for row in rows])),
             "after": float(np.mean([trial.distances[row] for row in rows])),
-            "parameters": {judge.references.names[row]: trial.parameters[row] for row in rows},
+            "parameters": {names[row]: trial.parameters[row] for row in rows},
         },
     )
 
 
-def _example(explained: Explained, after: Mesh) -> Example:
-    regions = [region.points for region in explained.misfit.of("unexplained")]
+def _example(case: Case, after: Mesh) -> Example:
+    regions = [region.points for region in case.covering_residuals.of("unexplained")]
     marked = np.concatenate(regions) if regions else np.zeros((0, 3))
-    return Example(explained.reference, marked, explained.best.mesh, after)
+    return Example(case.reference, marked, case.covering.mesh, after)
 
 
 def _text(found: Tried, procedure: Procedure, gain: int, misfits: int) -> str:

@@ -42,7 +42,7 @@ def legs(factor):
 def leanings(table, references, found):
     overlays = [Overlay(Surface.of(solid.mesh().normalised()), [MIDDLE]) for solid in references]
     with Workers(table, 1) as crew:
-        return leaning(table.space, crew, found, overlays, 1), overlays
+        return leaning(crew, list(zip(found, overlays, strict=True)), 1), overlays
 
 
 def test_legs_that_lean_are_found_from_shapes_without_legs(table):

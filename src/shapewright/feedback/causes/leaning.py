@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from shapewright.building import Workers
 from shapewright.feedback.parts.supports import supports, with_splayed
 from shapewright.feedback.surfaces.placement import Overlay
-from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.parameters import Parameters
 from shapewright.search.combinations import others
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
@@ -19,8 +19,12 @@ _SHAPES = 600  # built for all references together, at most about
 
 @dataclass(frozen=True)
 class Leaning:
-    """label: of the part. factor: how far apart its foot stands, in units of its head. apart: how much of the surfaces
-    lies apart then, see ``placement.Overlay``.
+    """A part that leans.
+
+    Attributes:
+        label: of the part.
+        factor: width of its foot, in units of its head's.
+        apart: how much of the surfaces lies apart then, see ``placement.Overlay``.
     """
 
     label: str
@@ -29,35 +33,34 @@ class Leaning:
 
 
 def leaning(
-    space: ParameterSpace,
-    crew: Workers,
-    found: Sequence[Parameters],
-    overlays: Sequence[Overlay],
-    threads: int | None = None,
+    crew: Workers, standing: Sequence[tuple[Parameters, Overlay]], threads: int | None = None
 ) -> list[Leaning | None]:
     """For each reference the part whose leaning leaves least of the surfaces apart; None where nothing stands.
 
-    Parts are those of the shapes with the parameters found, and with one other choice: where the parts that lean were
-    not recognised, what was found may well stand on others. overlays: of the references.
+    standing: the parameters of each reference's replica, and the reference's overlay. Parts are those of the replica,
+    and of shapes with one other choice: where parts that lean are not recognised, the replica may well stand on others.
     """
-    encoded, each = [space.encode(parameters) for parameters in found], max(1, _SHAPES // max(len(found), 1))
-    vectors = [[centre, *others(space, centre)][:each] for centre in encoded]
-    asked = [(i, space.canonical(space.decode(vector))) for i, several in enumerate(vectors) for vector in several]
-    meshes: list[list[Mesh]] = [[] for _ in found]
+    space, most = crew.procedure.space, max(1, _SHAPES // max(len(standing), 1))
+    asked: list[tuple[int, Parameters]] = []
+    for i, (parameters, _) in enumerate(standing):
+        centre = space.encode(parameters)
+        vectors = [centre, *others(space, centre)][:most]
+        asked += [(i, space.canonical(space.decode(vector))) for vector in vectors]
+    meshes: list[list[Mesh]] = [[] for _ in standing]
     for (i, _), build in zip(asked, crew.build([values for _, values in asked]), strict=True):
         if isinstance(build.shape, Mesh):
             meshes[i].append(build.shape)
 
     def lean(i: int, mesh: Mesh, label: str, factor: float) -> Leaning:
-        return Leaning(label, factor, overlays[i](with_splayed(mesh, label, factor)))
+        return Leaning(label, factor, standing[i][1](with_splayed(mesh, label, factor)))
 
     def best(i: int) -> Leaning | None:
         upright = [(mesh, label) for mesh in meshes[i] for label in supports(mesh)]
-        tried = [(lean(i, *part, factor), part) for part in upright for factor in _FACTORS]
-        if not tried:
+        coarse = [(lean(i, *part, factor), part) for part in upright for factor in _FACTORS]
+        if not coarse:
             return None
-        least, part = min(tried, key=lambda each: each[0].apart)
+        least, part = min(coarse, key=lambda candidate: candidate[0].apart)
         nearby = [lean(i, *part, least.factor * finer) for finer in _FINER]
-        return min([least, *nearby], key=lambda each: each.apart)
+        return min([least, *nearby], key=lambda candidate: candidate.apart)
 
-    return in_threads(best, range(len(found)), threads)
+    return in_threads(best, range(len(standing)), threads)

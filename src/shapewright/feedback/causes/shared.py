@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from shapewright.comparison.grouping import group
-from shapewright.feedback.causes.causes import Cause
-from shapewright.feedback.surfaces.residuals import Residuals, Side
-from shapewright.parameters import ParameterSpace
+from shapewright.feedback.case import Case, Kind
+from shapewright.feedback.surfaces.residuals import Residuals
+from shapewright.feedback.surfaces.residuals import Side as SurfaceSide
+from shapewright.parameters import Excess, ParameterSpace, Side
 from shapewright.shapes import Floats
 
 _CELLS = 8
@@ -21,27 +21,38 @@ _ALIKE = 0.6  # one less the cosine of two signatures, up to which residuals are
 _STRUCTURE = ("missing part", "surplus part", "wrong form")
 
 
-@dataclass(frozen=True, eq=False)
-class Misfit:
-    """The causes of one incompatible reference, and where its surface differs."""
+@dataclass(frozen=True)
+class SharedCause:
+    """A cause that references share.
 
-    causes: tuple[Cause, ...]
-    residuals: Residuals
+    Attributes:
+        kind: of the cause.
+        text: the cause, and how many references share it.
+        references: their names.
+        representative: the most typical of them; of a Range, the one that is furthest outside.
+        outside: of a Range: the parameter, the value of the representative and the end of the Range.
+    """
+
+    kind: Kind
+    text: str
+    references: tuple[str, ...]
+    representative: str
+    outside: Excess | None = None
 
 
-def shared(space: ParameterSpace, misfits: Mapping[str, Misfit]) -> list[dict[str, Any]]:
-    """Groups of references by cause, the largest first: kind, text, references, representative, and what else is known.
+def shared_causes(space: ParameterSpace, cases: Sequence[Case]) -> list[SharedCause]:
+    """The chief causes of cases, the one that most references share first.
 
     References whose chief cause lies in the parts of the shape are grouped by where the surfaces differ as well; a
-    reference may want several longer Ranges, and is then in several groups.
+    reference that several Ranges are too short for is in several groups.
     """
-    wishes = _ranges(space, misfits)
-    kinds: dict[str, list[str]] = {}
-    for name, misfit in misfits.items():
-        if misfit.causes and misfit.causes[0].kind != "out of range":
-            kinds.setdefault(misfit.causes[0].kind, []).append(name)
-    others = [entry for kind, names in kinds.items() for entry in _of_kind(kind, names, misfits)]
-    return sorted([*wishes, *others], key=lambda entry: -len(entry["references"]))
+    kinds: dict[Kind, list[Case]] = {}
+    for case in cases:
+        if case.causes:
+            kinds.setdefault(case.causes[0].kind, []).append(case)
+    too_short = _ranges(space, kinds.pop("out of range", []))
+    others = [entry for kind, alike in kinds.items() for entry in _of_kind(kind, alike)]
+    return sorted([*too_short, *others], key=lambda entry: -len(entry.references))
 
 
 def signature(residuals: Residuals) -> Floats:
@@ -49,7 +60,7 @@ def signature(residuals: Residuals) -> Floats:
     return _unit(np.concatenate([_filled(residuals, side).ravel() for side in ("unexplained", "surplus")]))
 
 
-def _filled(residuals: Residuals, side: Side) -> Floats:
+def _filled(residuals: Residuals, side: SurfaceSide) -> Floats:
     cells = np.zeros((_CELLS,) * 3)
     for region in residuals.of(side):
         places = np.clip(((region.points + _HALF) / (2.0 * _HALF) * _CELLS).astype(int), 0, _CELLS - 1)
@@ -62,38 +73,37 @@ def _unit(vector: Floats) -> Floats:
     return vector / length if length > 0.0 else vector
 
 
-def _of_kind(kind: str, names: Sequence[str], misfits: Mapping[str, Misfit]) -> list[dict[str, Any]]:
+def _of_kind(kind: Kind, cases: Sequence[Case]) -> list[SharedCause]:
+    names = [case.name for case in cases]
     if kind not in _STRUCTURE:
-        return [_entry(kind, "", names, names[0])]
-    signatures = np.array([signature(misfits[name].residuals) for name in names])
+        return [_shared(kind, None, names, names[0])]
+    signatures = np.array([signature(case.covering_residuals) for case in cases])
     between = np.clip(1.0 - signatures @ signatures.T, 0.0, None)
     np.fill_diagonal(between, 0.0)
+    labels = {case.name: case.causes[0].evidence.get("label") for case in cases}
+    groups = group(names, between, _ALIKE, absolute=True)
+    return [_shared(kind, labels[alike.representative], alike.members, alike.representative) for alike in groups]
+
+
+def _shared(kind: Kind, label: str | None, names: Sequence[str], representative: str) -> SharedCause:
+    text = f"{kind}{f' near {label}' if label else ''}: {_count(len(names))}"
+    return SharedCause(kind, text, tuple(names), representative)
+
+
+def _ranges(space: ParameterSpace, cases: Sequence[Case]) -> list[SharedCause]:
+    outside: dict[tuple[str, Side], dict[str, Excess]] = {}
+    for case in cases:
+        for excess in space.outside(case.outside.parameters):
+            outside.setdefault((excess.parameter, excess.side), {})[case.name] = excess
     entries = []
-    for alike in group(names, between, _ALIKE, absolute=True):
-        label = misfits[alike.representative].causes[0].evidence.get("label")
-        entries.append(_entry(kind, f" near {label}" if label else "", alike.members, alike.representative))
-    return entries
-
-
-def _entry(kind: str, where: str, names: Sequence[str], representative: str) -> dict[str, Any]:
-    text = f"{kind}{where}: {_count(len(names))}"
-    return {"kind": kind, "text": text, "references": list(names), "representative": representative}
-
-
-def _ranges(space: ParameterSpace, misfits: Mapping[str, Misfit]) -> list[dict[str, Any]]:
-    wishes: dict[tuple[str, str], dict[str, float]] = {}
-    for name, misfit in misfits.items():
-        for wish in (w for c in misfit.causes[:1] if c.kind == "out of range" for w in c.evidence["wishes"]):
-            wishes.setdefault((wish["parameter"], wish["side"]), {})[name] = wish["value"]
-    entries = []
-    for (parameter, side), values in wishes.items():
-        furthest = max(values, key=lambda name: values[name] if side == "high" else -values[name])
-        value, end = values[furthest], getattr(space[parameter], side)
+    for (parameter, side), excesses in outside.items():
+        sign = 1.0 if side == "high" else -1.0
+        furthest = max(excesses, key=lambda name: sign * excesses[name].value)
+        excess = excesses[furthest]
         verb, way = ("ends", "up") if side == "high" else ("starts", "down")
-        want = "wants" if len(values) == 1 else "want"
-        text = f"{parameter}: {_count(len(values))} {want} {way} to {value:.3g}; Range {verb} at {end:.4g}"
-        entry = {"kind": "out of range", "text": text, "references": list(values), "representative": furthest}
-        entries.append({**entry, "parameter": parameter, "side": side, "value": value, "end": end})
+        want = f"{'wants' if len(excesses) == 1 else 'want'} {way} to {excess.value:.3g}"
+        text = f"{parameter}: {_count(len(excesses))} {want}; Range {verb} at {excess.end:.4g}"
+        entries.append(SharedCause("out of range", text, tuple(excesses), furthest, excess))
     return entries
 
 

@@ -20,7 +20,7 @@ _MINOR = 0.3  # of the weightiest difference: below, it is not told
 
 
 @dataclass(frozen=True)
-class Difference:
+class PartDifference:
     """One kind of difference. weight: how much of the shape it concerns, and how far off."""
 
     kind: Kind
@@ -29,7 +29,7 @@ class Difference:
     evidence: dict[str, Any]
 
 
-def differences(residuals: Residuals) -> tuple[Difference, ...]:
+def part_differences(residuals: Residuals) -> tuple[PartDifference, ...]:
     """What is different, the weightiest first; at least one, be it that nothing in particular stands out."""
     whole = _whole_parts(residuals)
     moved = _moved(residuals)
@@ -46,7 +46,7 @@ def differences(residuals: Residuals) -> tuple[Difference, ...]:
     most = max(weights.values())
     if most == 0.0:
         text = "no part of the surface stands out; the difference is in small detail all over"
-        return (Difference("wrong form", text, 0.0, {"regions": 0, "share": 0.0}),)
+        return (PartDifference("wrong form", text, 0.0, {"regions": 0, "share": 0.0}),)
     unexplained = sum(region.weight for region in residuals.of("unexplained"))
     weights["surplus part"] *= 1.0 if unexplained < _MINOR * most else _LESSER
     told = [kind for kind in sorted(weights, key=lambda kind: -weights[kind]) if weights[kind] >= _MINOR * most]
@@ -87,7 +87,7 @@ def _alike(a: Floats, b: Floats) -> bool:
 
 def _told(
     kind: Literal["missing part", "surplus part", "wrong form"], regions: list[Region], weight: float
-) -> Difference:
+) -> PartDifference:
     share = {side: sum(r.share for r in regions if r.side == side) for side in ("unexplained", "surplus")}
     chief = max(regions, key=lambda region: region.weight)
     near = f" near {chief.label}" if chief.label else ""
@@ -111,7 +111,7 @@ def _told(
         "surplus": round(share["surplus"], 4),
         "weight": round(weight, 5),
     }
-    return Difference(kind, text, weight, evidence)
+    return PartDifference(kind, text, weight, evidence)
 
 
 def _shares(share: dict[str, float]) -> str:

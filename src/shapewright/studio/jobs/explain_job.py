@@ -13,8 +13,7 @@ from shapewright.studio.project.listing import Origin
 def explain(run: Path, origin: Origin, events: TextIO) -> None:
     """Explain a run and put that into its folder. origin: of the references."""
     from shapewright.feedback.explanation import explain as explain_iteration
-    from shapewright.feedback.record import write
-    from shapewright.feedback.suggestions import suggestion_records
+    from shapewright.feedback.record import record_of, write
     from shapewright.runs.folder import previous_run
     from shapewright.runs.inputs import procedure_of
     from shapewright.runs.iteration import Iteration
@@ -26,8 +25,8 @@ def explain(run: Path, origin: Origin, events: TextIO) -> None:
 
     iteration = Iteration.load(run)
     procedure = procedure_of(run, iteration)
-    found = explain_iteration(procedure, collection(origin), iteration, listen, cache_folder(), suggestion_records)
-    write(run, found.record, previous_run(run, set(iteration.names)))
+    found = explain_iteration(procedure, collection(origin), iteration, listen, cache_folder(), suggest=True)
+    write(run, record_of(found), previous_run(run, set(iteration.names)))
 
 
 def main() -> None:

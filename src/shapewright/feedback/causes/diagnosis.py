@@ -1,0 +1,118 @@
+"""Why a procedure does not replicate a reference, with the evidence."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from shapewright.feedback.case import Case, Cause, Replica
+from shapewright.feedback.causes.leaning import Leaning
+from shapewright.feedback.causes.structure import part_differences
+from shapewright.parameters import ParameterSpace, Scalar, Side
+
+_HELPS = 0.2  # share of the distance that a longer Range has to take away to be a cause when it does not suffice
+_BARELY = 0.8  # of the threshold
+_LACKING = 0.01  # share of the surface times distance, of a missing or surplus part that is beyond doubt
+_TOGETHER = 0.75  # of what lies apart within the space
+_CLOSE = 0.5  # of the threshold: nearer than shapes come that make up for something else
+_LEANS = 0.67  # of what lies apart, that is left at most where a part leans
+_FAR = 1.25  # thresholds: an outlier that comes nearer than this is only an unusual shape
+
+
+def diagnosed(space: ParameterSpace, threshold: float, case: Case) -> tuple[Cause, ...]:
+    """The causes of one case that is not compatible, the chief one first.
+
+    A search that ends below the threshold is no proof that nothing is missing: shapes grow fat to make up for parts
+    that they lack. So the surfaces have a say: other parameters or longer Ranges are the chief cause only when they
+    bring the shapes very close, or the surfaces together.
+    """
+    different = part_differences(case.covering_residuals)
+    parts = [Cause(part.kind, part.text, part.evidence) for part in different]
+    lacking = different[0].kind != "wrong form" and different[0].weight > _LACKING
+    if case.nearest.distance <= threshold:
+        overlooked = _overlooked(space, case.replica, case.nearest)
+        barely = case.nearest.distance > _BARELY * threshold
+        return (*parts, overlooked) if barely and lacking else (overlooked,)
+    ranges = _ranges(space, threshold, case.nearest, case.outside)
+    if ranges and case.outside.distance <= threshold and _together(case, threshold):
+        return ranges
+    if case.isolation is not None and case.nearest.distance > _FAR * threshold:
+        return (_unlike(case.isolation), *parts, *ranges)
+    return (*parts, *ranges)
+
+
+def or_leaning(case: Case, lean: Leaning | None) -> Case:
+    """The case with a part that leans in place of what seems missing, where that brings the surfaces together.
+
+    lean: the part that brings them together most when it leans.
+    """
+    apart = case.overlay(case.covering.mesh)
+    if lean is None or lean.apart >= _LEANS * apart:
+        return case
+    others = (cause for cause in case.causes if cause.kind not in ("missing part", "wrong form"))
+    return replace(case, causes=(_leans(lean, apart), *others))
+
+
+def _together(case: Case, threshold: float) -> bool:
+    """Whether longer Ranges bring the shapes very close, or the surfaces together."""
+    if case.outside.distance <= _CLOSE * threshold:
+        return True
+    return case.overlay(case.outside.mesh) < _TOGETHER * case.overlay(case.covering.mesh)
+
+
+def _leans(lean: Leaning, before: float) -> Cause:
+    way = "inwards" if lean.factor < 1.0 else "outwards"
+    text = f"another form of {lean.label}: leaning {way}, {lean.factor:.2g} times as far apart at the floor"
+    evidence = {"label": lean.label, "factor": lean.factor, "apart": lean.apart, "before": before}
+    return Cause("wrong form", f"{text}; {lean.apart / before:.0%} of what lies apart is left", evidence)
+
+
+def _overlooked(space: ParameterSpace, before: Replica, better: Replica) -> Cause:
+    changed = [
+        (p.name, before.parameters[p.name], better.parameters[p.name])
+        for p in space
+        if not isinstance(p, Scalar)
+        and p.name in space.active(better.parameters)
+        and before.parameters[p.name] != better.parameters[p.name]
+    ]
+    evidence = {
+        "parameters": better.parameters,
+        "distance": better.distance,
+        "before": before.distance,
+        "changed": [{"parameter": name, "was": was, "is": value} for name, was, value in changed],
+    }
+    fell = f"the distance falls from {before.distance:.3f} to {better.distance:.3f}"
+    if changed:
+        how = ", ".join(f"{name} is {_word(value)}, not {_word(was)}" for name, was, value in changed)
+        return Cause("wrong choice", f"{how}: {fell}", evidence)
+    return Cause("badly predicted", f"a longer search finds better parameters: {fell}", evidence)
+
+
+def _ranges(space: ParameterSpace, threshold: float, inside: Replica, outside: Replica) -> tuple[Cause, ...]:
+    excesses = space.outside(outside.parameters)
+    enough = outside.distance <= threshold
+    if not excesses or not (enough or outside.distance < (1.0 - _HELPS) * inside.distance):
+        return ()
+    how = ", ".join(f"{e.parameter} at {e.value:.3g}, Range {_ends(e.side)} at {e.end:.4g}" for e in excesses)
+    after = f"the distance would be {outside.distance:.2f} instead of {inside.distance:.2f}"
+    evidence = {
+        "wishes": [{"parameter": e.parameter, "value": e.value, "end": e.end, "side": e.side} for e in excesses],
+        "parameters": outside.parameters,
+        "distance": outside.distance,
+        "before": inside.distance,
+        "enough": enough,
+    }
+    return (Cause("out of range", f"{how}: {after}", evidence),)
+
+
+def _ends(side: Side) -> str:
+    return "starts" if side == "low" else "ends"
+
+
+def _unlike(isolation: float) -> Cause:
+    text = f"unlike all other references: the nearest are {isolation:.2f} away; perhaps it does not belong here"
+    return Cause("not such a shape", text, {"isolation": isolation})
+
+
+def _word(value: Any) -> str:
+    return ("on" if value else "off") if isinstance(value, bool) else str(value)

@@ -1,0 +1,114 @@
+"""Replicas beyond the Ranges that end too soon."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shapewright.building import Workers
+from shapewright.feedback.case import Replica
+from shapewright.feedback.causes.replicas import ENOUGH, affordable, measured, nearer
+from shapewright.judging.judge import Judge
+from shapewright.parameters import End, Integer, ParameterSpace
+from shapewright.search.budgets import Budget, Round
+from shapewright.search.search import refine
+
+OUTSIDE = Budget(
+    (Round(1), Round(1), *(Round(1, 2, 5),) * 3, Round(1, afresh=True), *(Round(1, 2, 5),) * 5),
+    patience=3,
+)
+_SHARE = 0.4  # of the evaluations for all references
+_TURNS = 2  # a longer Range may bring parameters to the ends of others
+_SPREAD = 0.06  # of the first random points, encoded in a space that is a few times as wide
+_CLOSE = 0.4  # of the threshold: beyond a Range the surfaces have to come together as well
+_LEVEL = 0.1  # part of what longer Ranges bring that is not worth one of them
+
+
+def replicas_outside(known: Sequence[Replica], crew: Workers, judge: Judge) -> list[Replica]:
+    """The nearest replicas when the Ranges are longer at the ends that the known parameters rest on.
+
+    A parameter lies outside its Range only where that pays.
+    """
+    space, threshold = crew.procedure.space, judge.settings.threshold
+    best, ends = list(known), [space.pressed(replica.parameters) for replica in known]
+    todo = [i for i, free in enumerate(ends) if free]
+    for _ in range(_TURNS):
+        if not todo:
+            break
+        wider = _searched([best[i] for i in todo], [ends[i] for i in todo], crew, judge)
+        again = []
+        for i, replica in zip(todo, wider, strict=True):
+            best[i] = replica
+            free = ends[i] | space.pressed(replica.parameters)
+            if free != ends[i] and replica.distance > threshold:
+                again.append(i)
+            ends[i] = free
+        todo = again
+    return _pulled_back(known, best, crew, judge)
+
+
+def _searched(known: Sequence[Replica], ends: Sequence[set[End]], crew: Workers, judge: Judge) -> list[Replica]:
+    space = crew.procedure.space
+    wide = space.widened()
+    vectors = refine(
+        wide,
+        [_prediction(wide, column, known, ends) for column in range(len(wide))],
+        crew,
+        judge.measure([replica.row for replica in known], [replica.field for replica in known]),
+        affordable(_with_integers(OUTSIDE, space, ends), _SHARE, len(known), crew),
+        judge.settings.seed,
+        [replica.parameters for replica in known],
+        within=space.limits(wide, ends),
+        spread=_SPREAD,
+        enough=ENOUGH * _CLOSE * judge.goal,
+    )
+    return nearer(known, vectors, crew, judge)
+
+
+def _pulled_back(known: Sequence[Replica], best: Sequence[Replica], crew: Workers, judge: Judge) -> list[Replica]:
+    """The same, with every parameter inside its Range again whose longer Range brings next to nothing."""
+    space, threshold, best = crew.procedure.space, judge.settings.threshold, list(best)
+
+    def as_good(distance: float, wide: float, before: float) -> bool:
+        return distance <= threshold or (wide > threshold and distance - wide <= _LEVEL * (before - wide))
+
+    for name in [name for name in space.names if any(_outside(space, replica, name) for replica in best)]:
+        some = [i for i, replica in enumerate(best) if _outside(space, replica, name)]
+        asked = [(best[i].row, space.clipped(best[i].parameters, [name])) for i in some]
+        for i, replica in zip(some, measured(asked, crew, judge), strict=True):
+            if replica and as_good(replica.distance, best[i].distance, known[i].distance):
+                best[i] = replica
+    return best
+
+
+def _outside(space: ParameterSpace, replica: Replica, name: str) -> bool:
+    return any(excess.parameter == name for excess in space.outside(replica.parameters))
+
+
+def _with_integers(budget: Budget, space: ParameterSpace, ends: Sequence[set[End]]) -> Budget:
+    """The same, with a combination more for each whole number that may leave its Range."""
+    more = max(sum(isinstance(space[name], Integer) for name, _ in free) for free in ends)
+    first = replace(budget.rounds[0], combinations=budget.rounds[0].combinations + more)
+    return replace(budget, rounds=(first, *budget.rounds[1:]))
+
+
+def _prediction(
+    wide: ParameterSpace, column: int, known: Sequence[Replica], ends: Sequence[set[End]]
+) -> NDArray[np.float32]:
+    """What is known, in the form of a prediction; an integer that rests on an end of its Range may leave it."""
+    parameter = wide.parameters[column]
+    values = np.array([parameter.encode(replica.parameters[parameter.name]) for replica in known], dtype=np.float32)
+    if not parameter.classes:
+        return values
+    likely = np.full((len(known), parameter.classes), 1e-6, dtype=np.float32)
+    for row, (value, free) in enumerate(zip(values.astype(int), ends, strict=True)):
+        likely[row, value] = 1.0
+        if isinstance(parameter, Integer):
+            if (parameter.name, "low") in free and value > 0:
+                likely[row, value - 1] = 0.1
+            if (parameter.name, "high") in free and value + 1 < parameter.classes:
+                likely[row, value + 1] = 0.1
+    return likely

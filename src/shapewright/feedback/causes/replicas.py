@@ -1,0 +1,164 @@
+"""Better replicas within the space, for many references at once: the nearest, and those whose surfaces cover most.
+
+An iteration gives up early. What a longer search finds tells a bad prediction from a procedure that cannot do better.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shapewright.building import Build, Workers
+from shapewright.feedback.case import Case, Replica
+from shapewright.feedback.surfaces.placement import Overlay
+from shapewright.judging.judge import Judge
+from shapewright.parameters import Parameters, Scalar
+from shapewright.prediction.lookup import nearest
+from shapewright.rendering.raster import render
+from shapewright.search.budgets import Budget, Round
+from shapewright.search.search import Measure, refine
+from shapewright.shapes import Floats, Mesh, Shape
+from shapewright.threads import in_threads
+
+Prediction = Sequence[NDArray[np.float32]]
+
+_RIVAL = 1.25  # of the best combination's cost
+NEAREST = Budget((Round(8), Round(2, rival=_RIVAL), *(Round(1, 2, 5),) * 12), patience=1)
+COVERING = Budget(
+    (Round(6), Round(2, rival=_RIVAL), Round(2, 2, 4, rival=_RIVAL), *(Round(1, 2, 5),) * 10),
+    patience=2,
+)
+"""Budgets and shares were chosen on seed 0 of ``benchmarks/causes.py``."""
+RANDOM = 256
+"""Random shapes among which the most similar to a reference is looked up."""
+EVALUATIONS = 3_600
+"""Shapes built for all references together, about: with 6,000 the causes were no better (docs/benchmarks.md)."""
+ENOUGH = 0.9
+"""Of the threshold. In the pose that both share, distances are upper bounds of what is judged."""
+_SHARES = 0.45, 0.55  # of EVALUATIONS: for the nearest and for the covering replicas
+_SPREADS = 0.15, 0.2  # of the same, of the first random points, encoded
+
+
+def measured(asked: Sequence[tuple[int, Parameters]], crew: Workers, judge: Judge) -> list[Replica | None]:
+    """Build and measure parameters, each for the reference of a row; None where no shape can be built or measured."""
+    builds = crew.build([parameters for _, parameters in asked])
+    rows = [row for row, _ in asked]
+    return [
+        Replica(row, build.parameters, build.shape, float(distance), int(field))
+        if isinstance(build.shape, Mesh) and not np.isnan(distance)
+        else None
+        for row, build, distance, field in zip(rows, builds, *judge.nearest(builds, rows), strict=True)
+    ]
+
+
+def with_fields(replicas: Sequence[Replica], judge: Judge) -> list[Replica]:
+    """The same, with their light fields."""
+    builds = [Build(replica.parameters, replica.mesh) for replica in replicas]
+    fields = judge.nearest(builds, [replica.row for replica in replicas])[1]
+    return [replace(replica, field=int(field)) for replica, field in zip(replicas, fields, strict=True)]
+
+
+def nearest_replicas(
+    known: Sequence[Replica], prediction: Prediction, crew: Workers, judge: Judge, budget: Budget | None = None
+) -> list[Replica]:
+    """The nearest replicas that a search within the space finds, or those that are known.
+
+    prediction: for the same references. budget: by default what their number affords.
+    """
+    vectors = refine(
+        crew.procedure.space,
+        prediction,
+        crew,
+        judge.measure([replica.row for replica in known], [replica.field for replica in known]),
+        budget or affordable(NEAREST, _SHARES[0], len(known), crew),
+        judge.settings.seed,
+        [replica.parameters for replica in known],
+        spread=_SPREADS[0],
+        enough=ENOUGH * judge.goal,
+    )
+    return nearer(known, vectors, crew, judge)
+
+
+def covering_replicas(
+    known: Sequence[Replica], overlays: Sequence[Overlay], prediction: Prediction, crew: Workers, judge: Judge
+) -> list[Replica]:
+    """The replicas within the space whose surfaces have most in common with the references'.
+
+    overlays, prediction: for the same references. A replica may be further away by the light field than what is known.
+    A search starts from the most similar of some random shapes where that has more in common with the reference.
+    """
+    vectors = refine(
+        crew.procedure.space,
+        prediction,
+        crew,
+        _gaps(overlays, judge.settings.workers),
+        affordable(COVERING, _SHARES[1], len(known), crew),
+        judge.settings.seed,
+        _starts(known, overlays, crew, judge),
+        spread=_SPREADS[1],
+    )
+    rows = [replica.row for replica in known]
+    fresh = measured(list(zip(rows, vectors, strict=True)), crew, judge)
+    return [new or old for new, old in zip(fresh, known, strict=True)]
+
+
+def with_choices_kept(cases: Sequence[Case], crew: Workers, judge: Judge) -> list[Replica]:
+    """The nearest replicas, with the choices of the iteration's where these do as well with the new numbers."""
+    space, threshold = crew.procedure.space, judge.settings.threshold
+    choices = [parameter.name for parameter in space if not isinstance(parameter, Scalar)]
+    best, asked = [case.nearest for case in cases], {}
+    for i, case in enumerate(cases):
+        old, new = case.replica, case.nearest
+        kept = space.canonical({**new.parameters, **{name: old.parameters[name] for name in choices}})
+        if new.distance <= threshold and kept != new.parameters:
+            asked[i] = (case.row, kept)
+    for i, replica in zip(asked, measured(list(asked.values()), crew, judge), strict=True):
+        if replica and replica.distance <= threshold:
+            best[i] = replica
+    return best
+
+
+def nearer(known: Sequence[Replica], vectors: Sequence[Parameters], crew: Workers, judge: Judge) -> list[Replica]:
+    """The nearer of what is known and what these parameters give, for each reference."""
+    best = list(known)
+    moved = [i for i, (old, vector) in enumerate(zip(known, vectors, strict=True)) if vector != old.parameters]
+    fresh = measured([(known[i].row, vectors[i]) for i in moved], crew, judge)
+    for i, replica in zip(moved, fresh, strict=True):
+        if replica and replica.distance < best[i].distance:
+            best[i] = replica
+    return best
+
+
+def affordable(budget: Budget, share: float, references: int, crew: Workers) -> Budget:
+    """What each reference's part of a share of all evaluations pays for."""
+    return budget.within(share * EVALUATIONS / max(references, 1), int(crew.procedure.space.scalars.sum()))
+
+
+def _starts(known: Sequence[Replica], overlays: Sequence[Overlay], crew: Workers, judge: Judge) -> list[Parameters]:
+    """What is known, or the most similar of some random shapes where more of the surfaces lies together."""
+    builds = crew.build(crew.procedure.space.sample(RANDOM, judge.settings.seed + 1))
+    drawn = [(build.parameters, build.shape) for build in builds if isinstance(build.shape, Mesh)]
+    if not drawn:
+        return [replica.parameters for replica in known]
+    shapes = [judge.references.references[replica.row].shape for replica in known]
+    pictures = [
+        render([mesh.normalised() for mesh in meshes], threads=judge.settings.workers)
+        for meshes in ([shape for shape in shapes if isinstance(shape, Mesh)], [mesh for _, mesh in drawn])
+    ]
+    alike = [drawn[i] for i in nearest(*pictures)]
+    return [
+        parameters if overlay(mesh) < overlay(replica.mesh) else replica.parameters
+        for replica, overlay, (parameters, mesh) in zip(known, overlays, alike, strict=True)
+    ]
+
+
+def _gaps(overlays: Sequence[Overlay], threads: int | None) -> Measure:
+    """What a search for covering replicas goes by."""
+
+    def residual(pair: tuple[int, Shape]) -> Floats | None:
+        return overlays[pair[0]].residual(pair[1]) if isinstance(pair[1], Mesh) else None
+
+    return lambda pairs: in_threads(residual, pairs, threads)
