@@ -1,134 +1,154 @@
-"""Everything that decides how an iteration runs, in one value."""
+"""Everything that decides how an iteration runs, in one value.
+
+Each field is one line: its name, its type, its bounds, what it is, and its default. Checks, messages, the options of
+the command line and the studio's page are made from these lines.
+"""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, fields
-from typing import Any, Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import cache
+from typing import Annotated, Any, Literal, TypeAlias
+
+from shapewright.fields import Field, Within, fields_of, meant
+
+Align: TypeAlias = Literal["free", "upright"]
+Cameras: TypeAlias = Literal["fixed", "learned"]
+Device: TypeAlias = Literal["auto", "cpu", "cuda", "mps"]
+Facing: TypeAlias = Literal["given", "found"]
+Network: TypeAlias = Literal["compact", "vgg19"]
+Optimiser: TypeAlias = Literal["adamw", "adam"]
+Preset: TypeAlias = Literal["fast", "paper"]
+Refine: TypeAlias = Literal["off", "quick", "thorough"]
+Four: TypeAlias = tuple[float, float, float, float]
 
 
-@dataclass(frozen=True)
-class Settings:
-    """How an iteration runs.
+@dataclass(frozen=True, kw_only=True)
+class Building:
+    """What building one shape may cost."""
 
-    seed: of everything random. samples: parameter vectors drawn from the space.
+    shape_seconds: Annotated[float, Within(above=0), "Seconds that building one shape may take."] = 10.0
+    shape_memory_mb: Annotated[int, Within(least=1), "Megabytes that building one shape may take."] = 2048
 
-    network: "compact" is made for CPUs, "vgg19" is the paper's; weights: a file of its ImageNet weights, by default
-    those in torch's cache. device: what it is trained on, "auto" the fastest there is. epochs, batch, learning_rate,
-    weight_decay: training; optimiser: "adamw" with a learning rate that rises and falls, or "adam" at a constant one.
-    image_size: pixels of a view, a multiple of 16. views: cameras; camera_distance: of each at the start, in units of
-    the shape's largest extent. cameras: "learned" moves them with the network, at the learning rate camera_rate, in
-    radians and units of distance.
 
-    augment: train on shapes that are turned, stretched and jittered a little, as scanned and modelled references are.
+@dataclass(frozen=True, kw_only=True)
+class Learning:
+    """How a network learns to predict parameters from pictures of shapes."""
 
-    warm_epochs, warm_samples: of a network that goes on from an earlier one. rounds: of adaptive sampling, each with
-    round_samples more samples around what was found for the references and warm_epochs more of training.
+    samples: Annotated[int, Within(least=20), "Parameter vectors to learn from."] = 3000
+    network: Annotated[Network, "compact is made for CPUs; vgg19 is the paper's."] = "compact"
+    weights: Annotated[str | None, "File of vgg19's ImageNet weights; None takes those in torch's cache."] = None
+    device: Annotated[Device, "What trains the network; auto takes the fastest there is."] = "auto"
+    epochs: Annotated[int, Within(least=1), "Passes of training over the samples."] = 15
+    batch: Annotated[int, Within(least=8), "Samples of one training step."] = 64
+    learning_rate: Annotated[float, Within(above=0), "Largest step of the network's training."] = 2e-3
+    weight_decay: Annotated[float, Within(least=0), "How strongly training keeps the network's weights small."] = 1e-2
+    optimiser: Annotated[Optimiser, "adamw's learning rate rises and falls; adam's is constant."] = "adamw"
+    image_size: Annotated[int, Within(least=16, step=16), "Pixels along the side of a picture."] = 64
+    views: Annotated[int, Within(least=1, most=32), "Number of cameras."] = 3
+    camera_distance: Annotated[float, Within(least=1.8, most=6), "Of a camera at first, in sizes of the shape."] = 2.6
+    cameras: Annotated[Cameras, "learned moves the cameras while the network learns."] = "fixed"
+    camera_rate: Annotated[float, Within(above=0), "Step of learned cameras, in radians and units of distance."] = 0.03
+    augment: Annotated[bool, "Train on shapes that are turned, stretched and jittered a little."] = False
+    warm_epochs: Annotated[int, Within(least=1), "Passes of training that resumes an earlier network."] = 5
+    warm_samples: Annotated[int, Within(least=20), "Most parameter vectors that it learns from then."] = 2000
+    rounds: Annotated[int, Within(least=0), "Rounds of more samples around the parameters found so far."] = 0
+    round_samples: Annotated[int, Within(least=1), "Parameter vectors of a round; it trains for warm_epochs."] = 1000
 
-    facing: "given" takes references as they are, "found" turns each about the up axis by the quarter turns at which the
-    procedure fits it best.
 
-    refine: how long to search for better parameters from the predicted ones, by the judge's measure; refine_seconds:
-    what building shapes for that may cost for each reference, on one core (ten times as much when thorough). Only slow
-    procedures reach it, from about 40 ms a mesh and 4 ms a drawing; how far they are searched depends on the machine.
+@dataclass(frozen=True, kw_only=True)
+class Searching:
+    """How parameters better than the predicted ones are searched for, by the judge's measure.
 
-    threshold: the largest normalised light-field distance of a compatible reference (paper: 0.18); fidelity: of a
-    drawing instead the least visual information fidelity (VIF), above which the paper counts from 0.05. metric: decides
-    in place of the threshold, if given: bias and weights of distance, IoU and depth difference, learned from marks.
-
-    cut: groups are merged up to this share of the largest distance between incompatible references (paper: 0.4), or up
-    to this distance itself when cut_absolute. align: "free" compares in all rotations as the paper does, "upright"
-    about the up axis only.
-
-    shape_seconds, shape_memory_mb: what building one shape may cost. workers: processes and threads; all cores by
-    default.
+    Only procedures that need more than about 40 ms a mesh, or 4 ms a drawing, reach ``refine_seconds``. How far these
+    are searched depends on the machine.
     """
 
-    seed: int = 0
-    samples: int = 3000
-    network: Literal["compact", "vgg19"] = "compact"
-    weights: str | None = None
-    device: Literal["auto", "cpu", "cuda", "mps"] = "auto"
-    epochs: int = 15
-    batch: int = 64
-    learning_rate: float = 2e-3
-    weight_decay: float = 1e-2
-    optimiser: Literal["adamw", "adam"] = "adamw"
-    image_size: int = 64
-    views: int = 3
-    camera_distance: float = 2.6
-    cameras: Literal["fixed", "learned"] = "fixed"
-    camera_rate: float = 0.03
-    augment: bool = False
-    warm_epochs: int = 5
-    warm_samples: int = 2000
-    rounds: int = 0
-    round_samples: int = 1000
-    facing: Literal["given", "found"] = "given"
-    refine: Literal["off", "quick", "thorough"] = "quick"
-    refine_seconds: float = 5.0
-    threshold: float = 0.18
-    metric: tuple[float, float, float, float] | None = None
-    fidelity: float = 0.05
-    cut: float = 0.4
-    cut_absolute: bool = False
-    align: Literal["free", "upright"] = "free"
-    shape_seconds: float = 10.0
-    shape_memory_mb: int = 2048
-    workers: int | None = None
+    facing: Annotated[Facing, "found turns each reference by the quarter turns that fit best."] = "given"
+    refine: Annotated[Refine, "How long to search from the prediction."] = "quick"
+    refine_seconds: Annotated[float, Within(above=0), "For each reference, of building; thorough: ten times."] = 5.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judging:
+    """When a replica counts as its reference, and how the other references are grouped. Defaults are the paper's."""
+
+    threshold: Annotated[float, Within(above=0), "Largest light-field distance of a compatible mesh."] = 0.18
+    metric: Annotated[Four | None, "Learned from marks: bias; weights of distance, IoU and depth difference."] = None
+    fidelity: Annotated[float, Within(above=0, below=1), "Least visual fidelity (VIF) of a compatible drawing."] = 0.05
+    cut: Annotated[float, Within(above=0), "Groups merge up to this share of the largest distance."] = 0.4
+    cut_absolute: Annotated[bool, "Groups merge up to the distance cut itself."] = False
+    align: Annotated[Align, "Compare in all rotations, or about the up axis only."] = "free"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings(Judging, Searching, Learning, Building):
+    """How an iteration runs: ``Settings(seed=1, refine="off")``. Every field of the four groups is one of its own.
+
+    Raises ValueError for a value that its field does not allow, TypeError for an unknown name.
+    """
+
+    seed: Annotated[int, Within(least=0), "Of everything random: the same seed gives the same result."] = 0
+    workers: Annotated[int | None, Within(least=1), "Processes and threads; None takes all cores."] = None
+
+    def __new__(cls, **given: Any) -> Settings:
+        unknown = [name for name in given if name not in described()]
+        if unknown:
+            raise TypeError(f"there is no setting {unknown[0]!r}{meant(unknown[0], described())}")
+        return super().__new__(cls)
 
     def __post_init__(self) -> None:
-        for name in (
-            "samples",
-            "epochs",
-            "batch",
-            "learning_rate",
-            "refine_seconds",
-            "threshold",
-            "shape_seconds",
-            "shape_memory_mb",
-        ):
-            if not getattr(self, name) > 0:
-                raise ValueError(f"{name}={getattr(self, name)} must be greater than 0")
-        if not 0.0 < self.fidelity < 1.0:
-            raise ValueError(f"fidelity={self.fidelity} must lie between 0 and 1")
-        if self.batch < 8:
-            raise ValueError(f"batch={self.batch}: a training step needs at least 8 samples")
-        if self.samples < 20:
-            raise ValueError(f"samples={self.samples}: a network needs at least 20 samples to learn from")
-        if not 1 <= self.views <= 32:
-            raise ValueError(f"views={self.views} must lie between 1 and 32")
-        if not 1.8 <= self.camera_distance <= 6.0:
-            raise ValueError(f"camera_distance={self.camera_distance} must lie between 1.8 and 6")
-        if not (self.camera_rate > 0 and self.weight_decay >= 0):
-            raise ValueError("camera_rate must be greater than 0, and weight_decay at least 0")
+        for name, field in described().items():
+            object.__setattr__(self, name, field.checked(getattr(self, name)))
         if self.network == "vgg19" and self.image_size < 32:
-            raise ValueError(f"image_size={self.image_size}: vgg19 needs at least 32")
-        if self.image_size < 16 or self.image_size % 16:
-            raise ValueError(f"image_size={self.image_size} must be a multiple of 16")
-        if not 0.0 < self.cut <= 1.0 and not self.cut_absolute:
-            raise ValueError(f"cut={self.cut} must lie in (0, 1]")
+            raise ValueError(f"image_size={self.image_size} must be at least 32 for network='vgg19'")
+        if self.cut > 1.0 and not self.cut_absolute:
+            raise ValueError(f"cut={self.cut} must be at most 1, or a distance together with cut_absolute=True")
 
     @classmethod
-    def preset(cls, name: Literal["fast", "paper"], **changes: Any) -> Settings:
+    def preset(cls, name: Preset, **changes: Any) -> Settings:
         """The settings of that name, with changes: "fast" is the default, made for laptops; "paper" is the paper's.
 
         The paper's network, training and cameras are those of its section 4.2; it takes hours without a GPU.
         Raises ValueError for another name.
         """
         if name not in _PRESETS:
-            raise ValueError(f"preset={name!r}: there is {' and '.join(_PRESETS)}")
+            raise ValueError(f"preset={name!r}: there is {' and '.join(_PRESETS)}{meant(name, _PRESETS)}")
         return cls(**{**_PRESETS[name], **changes})
 
     def record(self) -> dict[str, Any]:
-        """As plain values, for a file."""
-        return asdict(self)
+        """All fields as plain values, for a file."""
+        return {name: getattr(self, name) for name in described()}
 
     @classmethod
-    def from_record(cls, record: dict[str, Any]) -> Settings:
-        """The inverse of ``record``; entries of other versions are left out."""
-        known = {field.name for field in fields(cls)}
-        plain: dict[str, Any] = {name: tuple(v) if isinstance(v, list) else v for name, v in record.items()}
-        return cls(**{name: value for name, value in plain.items() if name in known})
+    def from_record(cls, record: Mapping[str, Any]) -> Settings:
+        """The inverse of ``record``, of this or an older version.
+
+        Unknown entries are left out. So are values that are not allowed: older versions took them for the default.
+        """
+        return cls(**{name: value for name, value in record.items() if name in described() and _allows(name, value)})
+
+
+@cache
+def described() -> Mapping[str, Field]:
+    """What each setting may be, by name."""
+    return fields_of(Settings)
+
+
+@cache
+def groups() -> Mapping[str, tuple[str, ...]]:
+    """The names of the settings of each group, by the group's name in small letters."""
+    kinds = (Building, Learning, Searching, Judging)
+    return {kind.__name__.lower(): tuple(field.name for field in fields(kind)) for kind in kinds}
+
+
+def _allows(name: str, value: Any) -> bool:
+    try:
+        described()[name].checked(value)
+    except ValueError:
+        return False
+    return True
 
 
 _PRESETS: dict[str, dict[str, Any]] = {

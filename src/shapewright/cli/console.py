@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.console import Console
@@ -15,13 +15,17 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColum
 from rich.table import Table
 from rich.text import Text
 
-from shapewright.fitting.evaluation import Trial, summary
-from shapewright.judging.calibration import Verdict
 from shapewright.progress import Listener
 from shapewright.progress import Progress as Event
-from shapewright.runs.changes import Comparison
-from shapewright.runs.iteration import Iteration
+from shapewright.settings import Settings
 
+if TYPE_CHECKING:
+    from shapewright.fitting.evaluation import Trial
+    from shapewright.judging.calibration import Verdict
+    from shapewright.runs.changes import Comparison
+    from shapewright.runs.iteration import Iteration
+
+out, err = Console(), Console(stderr=True)
 _DOING = {
     "sample": "building samples",
     "render": "rendering",
@@ -47,13 +51,13 @@ class _Rate(ProgressColumn):
 
 
 @contextmanager
-def progress_bars(errors: Console) -> Iterator[Listener]:
+def progress_bars() -> Iterator[Listener]:
     """A listener that draws one bar a stage; on a dumb terminal or in a file, one line a stage."""
-    if not errors.is_terminal:
-        yield _plain_listener(errors)
+    if not err.is_terminal:
+        yield _plain_listener()
         return
     columns = (TextColumn("{task.description:>18}"), BarColumn(), MofNCompleteColumn(), _Rate(), TimeRemainingColumn())
-    with Progress(*columns, TextColumn("[dim]{task.fields[remark]}"), console=errors) as bars:
+    with Progress(*columns, TextColumn("[dim]{task.fields[remark]}"), console=err) as bars:
         tasks: dict[str, Any] = {}
 
         def listen(event: Event) -> None:
@@ -64,13 +68,13 @@ def progress_bars(errors: Console) -> Iterator[Listener]:
         yield listen
 
 
-def _plain_listener(errors: Console) -> Listener:
+def _plain_listener() -> Listener:
     seen: set[str] = set()
 
     def listen(event: Event) -> None:
         if event.stage not in seen:
             seen.add(event.stage)
-            errors.print(f"{_DOING.get(event.stage, event.stage)} ({event.total}) ...", highlight=False)
+            err.print(f"{_DOING.get(event.stage, event.stage)} ({event.total}) ...", highlight=False)
 
     return listen
 
@@ -80,34 +84,32 @@ def print_json(value: Any) -> None:
     typer.echo(json.dumps(value, allow_nan=False))
 
 
-def print_iteration(console: Console, iteration: Iteration, folder: Path) -> None:
+def print_iteration(iteration: Iteration, folder: Path) -> None:
     """Counts, groups, held-out metrics, and where the report is."""
     total = len(iteration)
-    console.print(
+    out.print(
         f"\n[bold]{len(iteration.compatible)} of {total}[/] references are compatible "
         f"({iteration.metric.criterion}); their mean IoU is {iteration.mean_iou:.3f}",
         highlight=False,
     )
     skipped = iteration.collection["skipped"]
     if skipped:
-        console.print(f"[yellow]{len(skipped)} {'file' if len(skipped) == 1 else 'files'} could not be read:[/]")
+        out.print(f"[yellow]{len(skipped)} {'file' if len(skipped) == 1 else 'files'} could not be read:[/]")
         for path, reason in list(skipped.items())[:5]:
-            console.print(f"  {escape(path)}: {escape(reason)}", highlight=False, soft_wrap=True)
+            out.print(f"  {escape(path)}: {escape(reason)}", highlight=False, soft_wrap=True)
     if iteration.metrics["failed"]:
-        console.print(
-            f"[yellow]{iteration.metrics['failed']} samples failed:[/] {escape(iteration.metrics['failures'])}"
-        )
+        out.print(f"[yellow]{iteration.metrics['failed']} samples failed:[/] {escape(iteration.metrics['failures'])}")
     if iteration.groups:
         table = Table("group", "references", "distance", box=None, header_style="dim", title_justify="left")
         for group in iteration.groups[:10]:
             table.add_row(
                 escape(group.representative), str(len(group)), f"{iteration[group.representative].distance:.2f}"
             )
-        console.print("\nmisfits that look alike, by the one in their middle:")
-        console.print(table)
+        out.print("\nmisfits that look alike, by the one in their middle:")
+        out.print(table)
         if len(iteration.groups) > 10:
-            console.print(f"  and {len(iteration.groups) - 10} more groups")
-    console.print(
+            out.print(f"  and {len(iteration.groups) - 10} more groups")
+    out.print(
         f"\n[dim]{sum(iteration.seconds.values()):.0f} s[/]   report: {escape(str(folder / 'report.html'))}",
         soft_wrap=True,
     )
@@ -135,34 +137,37 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
     }
 
 
-def print_explanation(console: Console, record: Mapping[str, Any], folder: Path) -> None:
+def print_explanation(record: Mapping[str, Any], folder: Path) -> None:
     """What the incompatible references have in common, and what to write next."""
     if not record["summary"]:
-        console.print("every reference that has a replica is compatible")
+        out.print("every reference that has a replica is compatible")
     for shared in record["summary"]:
         like = f"  [dim]like {escape(shared['representative'])}[/]"
-        console.print(f"{escape(shared['text'])}{like}", highlight=False, soft_wrap=True)
+        out.print(f"{escape(shared['text'])}{like}", highlight=False, soft_wrap=True)
     for number, suggestion in enumerate(record["suggestions"], start=1):
         title = f"\n[bold]{number}. {escape(suggestion['title'])}[/]  +{suggestion['gain']}"
-        console.print(title, highlight=False, soft_wrap=True)
-        console.print(escape(suggestion["text"]), highlight=False, soft_wrap=True)
+        out.print(title, highlight=False, soft_wrap=True)
+        out.print(escape(suggestion["text"]), highlight=False, soft_wrap=True)
     spent = sum(record["seconds"].values())
-    console.print(f"\n[dim]{spent:.0f} s[/]   report: {escape(str(folder / 'report.html'))}", soft_wrap=True)
+    out.print(f"\n[dim]{spent:.0f} s[/]   report: {escape(str(folder / 'report.html'))}", soft_wrap=True)
 
 
-def print_verdict(console: Console, path: Path, verdict: Verdict) -> None:
+def print_verdict(path: Path, verdict: Verdict) -> None:
     """What the marks say so far."""
-    console.print(f"{verdict.marks} marks in {escape(str(path))}", highlight=False, soft_wrap=True)
+    out.print(f"{verdict.marks} marks in {escape(str(path))}", highlight=False, soft_wrap=True)
     sure = "" if verdict.accuracy is None else f", right for {verdict.accuracy:.0%} of marks that it has not seen"
-    was = f" (0.18 is right for {verdict.default_accuracy:.0%})" if verdict.default_accuracy is not None else ""
-    console.print(f"threshold {verdict.threshold:.3f}{sure}{was}", highlight=False)
+    default = verdict.default_accuracy
+    was = "" if default is None else f" ({Settings.threshold} is right for {default:.0%})"
+    out.print(f"threshold {verdict.threshold:.3f}{sure}{was}", highlight=False)
     if verdict.metric and verdict.metric_accuracy is not None:
-        console.print(f"distance, IoU and depth together: right for {verdict.metric_accuracy:.0%}", highlight=False)
-    console.print("[dim]use it with: shapewright fit PROCEDURE REFERENCES --marks[/]")
+        out.print(f"distance, IoU and depth together: right for {verdict.metric_accuracy:.0%}", highlight=False)
+    out.print("[dim]use it with: shapewright fit PROCEDURE REFERENCES --marks[/]")
 
 
-def print_trials(console: Console, trials: Sequence[Trial]) -> None:
+def print_trials(trials: Sequence[Trial]) -> None:
     """Errors by parameter, of the network alone and after refinement; with several seeds their range as well."""
+    from shapewright.fitting.evaluation import summary
+
     first = trials[0].metrics
     table = Table(
         "parameter", "kind", "measure", "network", "refined", "within 50 %, 90 %", box=None, header_style="dim"
@@ -172,31 +177,29 @@ def print_trials(console: Console, trials: Sequence[Trial]) -> None:
         cells = [_range(*found[label]) if label in found else "" for label in ("network", "refined")]
         shares = [f"{first[name][key]:.2f}" for key in ("within50", "within90") if key in first[name]]
         table.add_row(escape(name), first[name]["kind"], measure, *cells, ", ".join(shares))
-    console.print(table)
-    console.print(f"[dim]{sum(trial.seconds for trial in trials) / len(trials):.0f} s to train[/]", highlight=False)
+    out.print(table)
+    out.print(f"[dim]{sum(trial.seconds for trial in trials) / len(trials):.0f} s to train[/]", highlight=False)
 
 
 def _range(mean: float, low: float, high: float) -> str:
     return f"{mean:.4f}" if low == high else f"{mean:.4f} ({low:.4f} to {high:.4f})"
 
 
-def print_comparison(console: Console, before: Path, after: Path, comparison: Comparison) -> None:
+def print_comparison(before: Path, after: Path, comparison: Comparison) -> None:
     """What changed between two runs, and how far each reference moved."""
-    console.print(f"from {escape(str(before))} to {escape(str(after))}", highlight=False)
+    out.print(f"from {escape(str(before))} to {escape(str(after))}", highlight=False)
     for title, moves in (
         ("newly compatible", comparison.gained),
         ("lost", comparison.lost),
         ("closer, not across the threshold", comparison.closer),
         ("further, not across the threshold", comparison.further),
     ):
-        console.print(f"\n[bold]{len(moves)}[/] {title}", highlight=False)
+        out.print(f"\n[bold]{len(moves)}[/] {title}", highlight=False)
         for move in moves:
-            console.print(
-                f"  {_distance(move.before)} -> {_distance(move.after)}  {escape(move.name)}", highlight=False
-            )
+            out.print(f"  {_distance(move.before)} -> {_distance(move.after)}  {escape(move.name)}", highlight=False)
     for title, names in (("only in the new run", comparison.added), ("only in the old run", comparison.removed)):
         if names:
-            console.print(f"\n[bold]{len(names)}[/] {title}: {escape(', '.join(names))}", highlight=False)
+            out.print(f"\n[bold]{len(names)}[/] {title}: {escape(', '.join(names))}", highlight=False)
 
 
 def _distance(value: float | None) -> str:

@@ -1,37 +1,79 @@
-"""Options that several commands of the command line share."""
+"""Options that several commands share; those of settings are made from the settings' fields."""
 
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 import typer
+
+from shapewright.settings import Preset, Settings, described
+
+FLAGS = {"shape_seconds": "--time-limit", "shape_memory_mb": "--memory-limit"}
+"""Options that have another name than their setting."""
+
+
+def option(name: str, default: Any = None) -> Any:
+    """The option of a setting. default: its value where it is not given, if that is not the setting's own."""
+    field = described()[name]
+    default = field.default if default is None else default
+    paper = getattr(Settings.preset("paper"), name)
+    text = "" if default is None or default is False else f"  [dim]default: {default}{_unless(paper, field.default)}[/]"
+    flag = FLAGS.get(name, f"--{name.replace('_', '-')}")
+    return typer.Option(flag, min=field.within.least, max=field.within.most, help=field.help + text, show_default=False)
+
+
+def _unless(paper: Any, default: Any) -> str:
+    return "" if paper == default else f"; of the preset paper: {paper}"
+
 
 ProcedureArgument = Annotated[
     Path, typer.Argument(help="The Python file with the @procedure; file.py:name for one of several.")
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object as the last line of standard output.")]
-Seed = Annotated[int, typer.Option(help="Of everything random: the same seed gives the same result.")]
-Preset = Annotated[
-    Literal["fast", "paper"], typer.Option(help="fast is made for laptops; paper is the paper's, made for a GPU.")
+PresetOption = Annotated[
+    Preset, typer.Option("--preset", help="fast is made for laptops; paper is the paper's, made for a GPU.")
 ]
-Samples = Annotated[
-    int | None, typer.Option(min=20, help="Parameter vectors to learn from.  [dim]default: the preset's[/]")
-]
-Epochs = Annotated[int | None, typer.Option(min=1, help="Passes over them.  [dim]default: the preset's[/]")]
-Cameras = Annotated[
-    Literal["fixed", "learned"] | None, typer.Option(help="Whether they move.  [dim]default: the preset's[/]")
-]
-Views = Annotated[int | None, typer.Option(min=1, max=32, help="Number of cameras.  [dim]default: the preset's[/]")]
-Augment = Annotated[
-    bool,
-    typer.Option("--augment", help="Train on shapes turned, stretched and jittered a little."),
-]
-Refine = Annotated[
-    Literal["off", "quick", "thorough"] | None,
-    typer.Option(help="Search on from the prediction.  [dim]default: the preset's[/]"),
-]
-Device = Annotated[Literal["auto", "cpu", "cuda", "mps"], typer.Option(help="What to train on.")]
+Seed = Annotated[int, option("seed")]
+Workers = Annotated[int | None, option("workers")]
 Up = Annotated[str, typer.Option(help="The axis of the files that points up: x, y, z, -x, -y, -z.")]
 Front = Annotated[
     str | None, typer.Option(help="The axis that points to the front.  [dim]default: z, or -y where up is z[/]")
 ]
-Workers = Annotated[int | None, typer.Option(min=1, help="Processes and threads.  [dim]default: all cores[/]")]
+Command = TypeVar("Command", bound=Callable[..., None])
+
+
+def with_settings(*names: str, **defaults: Any) -> Callable[[Command], Command]:
+    """Give a command an option for each of these settings, in the place of its parameter ``chosen``.
+
+    The command gets a mapping there: the settings whose options were given, and ``defaults`` for those that were not.
+    """
+
+    def decorate(command: Command) -> Command:
+        signature = inspect.signature(command, eval_str=True)
+        options = [_parameter(name, defaults.get(name)) for name in names]
+        parameters: list[inspect.Parameter] = []
+        for parameter in signature.parameters.values():
+            parameters += options if parameter.name == "chosen" else [parameter]
+
+        @functools.wraps(command)
+        def run(**given: Any) -> None:
+            chosen = {name: value for name in names if (value := given.pop(name)) is not None}
+            command(**given, chosen=defaults | chosen)
+
+        run.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+        run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+        return run  # type: ignore[return-value]
+
+    return decorate
+
+
+def _parameter(name: str, default: Any) -> inspect.Parameter:
+    """None where the option is not given, so that the preset decides."""
+    field = described()[name]
+    kind: Any = Literal[field.choices] if field.choices else field.kind
+    annotation = Annotated[kind | None, option(name, default)]
+    return inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None, annotation=annotation)

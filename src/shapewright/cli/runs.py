@@ -8,9 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
-from rich.console import Console
 from rich.markup import escape
 
+from shapewright.cli.console import (
+    err,
+    out,
+    print_comparison,
+    print_explanation,
+    print_json,
+    print_verdict,
+    progress_bars,
+)
 from shapewright.cli.options import Json, Workers
 from shapewright.runs.folder import RunError, previous_run, read_record
 from shapewright.runs.marks import marks_path
@@ -23,7 +31,6 @@ if TYPE_CHECKING:
     from shapewright.references import Collection
     from shapewright.runs.iteration import Iteration
 
-out, err = Console(), Console(stderr=True)
 Run = Annotated[Path, typer.Argument(help="Folder of a run.")]
 
 
@@ -37,7 +44,6 @@ def explain(
     json: Json = False,
 ) -> None:
     """Say where and why replicas differ from their references, and what to write next; renews the run's report."""
-    from shapewright.cli.console import print_explanation, print_json, progress_bars
     from shapewright.feedback.explanation import explain as explain_iteration
     from shapewright.feedback.record import record_of, write
     from shapewright.runs.inputs import procedure_of, references_of
@@ -47,7 +53,7 @@ def explain(
     iteration = Iteration.load(run)
     procedure, collection = procedure_of(run, iteration), references_of(run, iteration, references)
     try:
-        with progress_bars(err) as listen:
+        with progress_bars() as listen:
             explanation = explain_iteration(
                 procedure, collection, iteration, listen, cache_folder(), suggestions, workers
             )
@@ -58,7 +64,7 @@ def explain(
     if json:
         print_json({"run": str(run), "report": str(run / "report.html"), **record})
     else:
-        print_explanation(out, record, run)
+        print_explanation(record, run)
 
 
 def mark(
@@ -70,7 +76,6 @@ def mark(
     json: Json = False,
 ) -> None:
     """Mark a reference and its replica as the same or as different; the marks say what the threshold should be."""
-    from shapewright.cli.console import print_json, print_verdict
     from shapewright.runs.marks import mark as write_mark
 
     path = write_mark(run, name, judgement == "same")
@@ -78,7 +83,7 @@ def mark(
     if json:
         print_json({"path": str(path), **asdict(found)})
     else:
-        print_verdict(out, path, found)
+        print_verdict(path, found)
 
 
 def report(
@@ -89,7 +94,6 @@ def report(
     json: Json = False,
 ) -> None:
     """Write a run's report anew and print its path."""
-    from shapewright.cli.console import print_json
     from shapewright.report import write_report
 
     read_record(run)
@@ -108,14 +112,13 @@ def compare(
     json: Json = False,
 ) -> None:
     """Show what changed between two runs: newly compatible, lost, closer, further."""
-    from shapewright.cli.console import print_comparison, print_json
     from shapewright.runs.changes import compare as compare_records
 
     comparison = compare_records(read_record(after), read_record(before))
     if json:
         print_json(asdict(comparison))
     else:
-        print_comparison(out, before, after, comparison)
+        print_comparison(before, after, comparison)
 
 
 def judged_by_marks(folder: Path) -> dict[str, Any]:

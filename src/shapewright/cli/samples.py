@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
-from rich.console import Console
 from rich.markup import escape
 
+from shapewright.cli.console import err, out, print_json, progress_bars
 from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers
 from shapewright.procedures import load_procedure
-
-out, err = Console(), Console(stderr=True)
+from shapewright.settings import Settings
+from shapewright.shapes.files import Format
 
 
 def sample(
@@ -22,21 +22,18 @@ def sample(
         Path, typer.Option("--out", help="Folder for the shapes; one that holds the first of them is gone on with.")
     ],
     count: Annotated[int, typer.Option("-n", "--count", min=1, help="How many shapes.")] = 10,
-    format: Annotated[
-        Literal["glb", "ply", "obj", "stl", "off"], typer.Option(help="Kind of file; drawings are written as SVG.")
-    ] = "glb",
-    seed: Seed = 0,
+    format: Annotated[Format, typer.Option(help="Kind of file; drawings are written as SVG.")] = "glb",
+    seed: Seed = Settings.seed,
     workers: Workers = None,
     json: Json = False,
 ) -> None:
     """Write random shapes of a procedure, and a table of their parameters and soundness."""
-    from shapewright.cli.console import print_json, progress_bars
     from shapewright.fitting.samples import MANIFEST, write_samples
     from shapewright.progress import Progress
 
     folder = out_dir.absolute()
     try:
-        with progress_bars(err) as listen:
+        with progress_bars() as listen:
             samples = write_samples(
                 load_procedure(procedure),
                 count,
@@ -69,7 +66,6 @@ def silhouettes(
     json: Json = False,
 ) -> None:
     """Write silhouettes of meshes as drawings, which procedures that draw can be fitted to."""
-    from shapewright.cli.console import print_json
     from shapewright.references import Collection
     from shapewright.references.silhouette_drawings import write_silhouettes
 

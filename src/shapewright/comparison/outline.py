@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +18,11 @@ from shapewright.comparison.light_field.contours import FOURIER
 from shapewright.comparison.light_field.regions import ART
 from shapewright.rendering.ink import fill, outlines
 from shapewright.rendering.silhouettes import SIZE
+from shapewright.settings import Align
 from shapewright.shapes import Drawing
 
 Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
-Align = Literal["free", "upright"]
 
 _ORDERS = np.array([(n, m) for n in range(1, 11) for m in range(n % 2, n + 1, 2)])
 

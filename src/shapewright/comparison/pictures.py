@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from shapewright.comparison.outline import silhouette
+from shapewright.settings import Settings
 from shapewright.shapes import Drawing
 
-VIF_THRESHOLD = 0.05
+VIF_THRESHOLD = Settings.fidelity
 """A drawing counts as replicated above this fidelity (paper section 6.2)."""
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -16,13 +16,13 @@ from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
 from shapewright.search.search import refine
-from shapewright.settings import Settings
+from shapewright.settings import Cameras, Settings
 
 REFINED = 100
 """Held-out samples that refinement is measured on, at most, where no other number is asked for."""
 
 VIEWS = (1, 2, 3, 5)
-CAMERAS: tuple[Literal["fixed", "learned"], ...] = ("fixed", "learned")
+CAMERAS: tuple[Cameras, ...] = get_args(Cameras)
 
 
 @dataclass(frozen=True)

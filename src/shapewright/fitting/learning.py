@@ -24,7 +24,7 @@ from shapewright.progress import Listener, Stages
 from shapewright.rendering.cameras import PAGE, Camera, starting_views
 from shapewright.search.budgets import QUICK, THOROUGH, Budget
 from shapewright.search.drawing_budgets import DRAWN, DRAWN_THOROUGH
-from shapewright.settings import Settings
+from shapewright.settings import Building, Searching, Settings
 from shapewright.shapes import Drawing, Shape
 
 FIRST = 256
@@ -42,7 +42,7 @@ class Lesson:
     held_out: Dataset
     facts: dict[str, Any]
 
-    def budget(self, settings: Settings) -> Budget:
+    def budget(self, settings: Searching) -> Budget:
         """How long to refine: what the settings say, or less where a shape takes long to build."""
         drawn = self.training.kind is Drawing
         budget, seconds = DRAWN if drawn else QUICK, settings.refine_seconds
@@ -132,7 +132,7 @@ def learn_more(
     return _train(procedure, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
 
 
-def limits_of(settings: Settings) -> Limits:
+def limits_of(settings: Building) -> Limits:
     """What building one shape may cost."""
     return Limits(settings.shape_seconds, settings.shape_memory_mb)
 

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from typing import Literal, TypeAlias
 
 import torch
 
+from shapewright.settings import Device
 from shapewright.threads import cores
-
-DeviceName: TypeAlias = Literal["auto", "cpu", "cuda", "mps"]
 
 
 def available() -> list[str]:
@@ -19,7 +17,7 @@ def available() -> list[str]:
     return [name for name, there in found.items() if there]
 
 
-def pick(name: DeviceName = "auto") -> torch.device:
+def pick(name: Device = "auto") -> torch.device:
     """The device of that name; "auto" is the fastest there is. Raises ValueError when this machine has no such."""
     if name == "auto":
         return torch.device(available()[0])

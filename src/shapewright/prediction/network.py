@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal, TypeAlias
 
 import torch
 from torch import Tensor, nn
@@ -13,8 +12,8 @@ from torch.nn import functional
 from shapewright.parameters import ParameterSpace
 from shapewright.prediction.heads import Heads
 from shapewright.prediction.vgg import VGG19Network
+from shapewright.settings import Network
 
-NetworkName: TypeAlias = Literal["compact", "vgg19"]
 LAYERS = ((4, 48), (2, 96), (2, 128))
 """Stride and channels of each convolution: the first takes patches side by side, the others overlap by a pixel."""
 _LOG_SPREAD = (-9.0, 2.0)
@@ -46,9 +45,7 @@ class CompactNetwork(nn.Module):
         return answers
 
 
-def make_network(
-    name: NetworkName, space: ParameterSpace, views: int, size: int, weights: Path | None = None
-) -> nn.Module:
+def make_network(name: Network, space: ParameterSpace, views: int, size: int, weights: Path | None = None) -> nn.Module:
     """A network fresh from torch's random numbers; weights: a file of VGG19's, see vgg.VGG19Network."""
     return CompactNetwork(space, views, size) if name == "compact" else VGG19Network(space, views, size, weights)
 

@@ -9,7 +9,6 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 import torch
@@ -19,11 +18,12 @@ from torch import nn
 from shapewright.parameters import ParameterSpace
 from shapewright.prediction.cameras import LearnedCameras, camera_gradient
 from shapewright.prediction.dataset import Dataset
-from shapewright.prediction.devices import DeviceName, autocast, pick, torch_threads
+from shapewright.prediction.devices import autocast, pick, torch_threads
 from shapewright.prediction.inference import calibrate, outputs
-from shapewright.prediction.network import NetworkName, loss, make_network, spread_loss
+from shapewright.prediction.network import loss, make_network, spread_loss
 from shapewright.rendering.cameras import Camera
 from shapewright.rendering.raster import render
+from shapewright.settings import Device, Network, Optimiser
 from shapewright.threads import cores
 
 Rows = NDArray[np.int64]
@@ -56,11 +56,11 @@ class Schedule:
     batch: int = 64
     learning_rate: float = 2e-3
     weight_decay: float = 1e-2
-    optimiser: Literal["adamw", "adam"] = "adamw"
+    optimiser: Optimiser = "adamw"
     camera_rate: float = 0.0
-    network: NetworkName = "compact"
+    network: Network = "compact"
     weights: Path | None = None
-    device: DeviceName = "cpu"
+    device: Device = "cpu"
     seed: int = 0
 
 

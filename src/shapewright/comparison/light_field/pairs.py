@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from shapewright.comparison.light_field.cache import DescriptorCache
 from shapewright.comparison.light_field.description import Descriptor, describe
 from shapewright.comparison.light_field.dodecahedra import alignments, upright_rotations
 from shapewright.comparison.light_field.least_cost import Weighted, least_of_all, least_of_some
+from shapewright.settings import Align, Settings
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
 
@@ -34,12 +34,10 @@ __all__ = [
     "raw_distances",
 ]
 
-THRESHOLD = 0.18
+THRESHOLD = Settings.threshold
 """Shapes are compatible up to this normalised distance, with ART coefficients of 4 bits."""
 RAW_SCALE = 15_000
 """Raw distance over normalised distance."""
-
-Align = Literal["free", "upright"]
 
 _BATCH = 16
 _ALIGNMENTS = alignments()

@@ -2,60 +2,49 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, get_type_hints
+from typing import Annotated, Any
 
-from shapewright.settings import Settings
+from shapewright.fields import Field, fields_of, meant
+from shapewright.settings import Preset, Settings, described, groups
 
+SHAPE_SECONDS = 5.0
+"""Seconds that one shape may take in the studio: half of what a fit on the command line gives it, because one waits."""
 _FIT = ("samples", "epochs", "refine", "rounds", "seed", "threshold", "fidelity", "shape_seconds")
-_PRESETS = ("fast", "paper")
+_KEPT = (*groups()["building"], *groups()["judging"], "seed", "workers")
+"""The settings that stay when another preset is chosen: no preset says anything about them."""
 
 
 @dataclass(frozen=True)
 class Preferences:
-    """auto_fit: a fit follows every save. fresh: fits do not go on from the run before. settings: of the fits."""
+    """What the author chose. Each field but ``settings`` is one of the page's ``Settings``, and so is each of _FIT."""
 
-    auto_fit: bool = True
-    fresh: bool = False
-    preset: str = "fast"
-    settings: Settings = field(default_factory=lambda: Settings(shape_seconds=5.0))
+    auto_fit: Annotated[bool, "A fit follows every save."] = True
+    fresh: Annotated[bool, "A fit learns anew, and does not resume the run before."] = False
+    preset: Annotated[Preset, "Settings of fits to start from."] = "fast"
+    settings: Settings = field(default_factory=lambda: Settings(shape_seconds=SHAPE_SECONDS))
+
+    @staticmethod
+    def described() -> Mapping[str, Field]:
+        """What each entry of ``record`` may be."""
+        own = {name: field for name, field in fields_of(Preferences).items() if name != "settings"}
+        return own | {name: described()[name] for name in _FIT}
 
     def record(self) -> dict[str, Any]:
         """The page's ``Settings``."""
-        own = {"auto_fit": self.auto_fit, "fresh": self.fresh, "preset": self.preset}
-        return own | {name: getattr(self.settings, name) for name in _FIT}
+        return {name: getattr(self.settings if name in _FIT else self, name) for name in self.described()}
 
-    def changed(self, given: dict[str, Any]) -> Preferences:
+    def changed(self, given: Mapping[str, Any]) -> Preferences:
         """With some entries of ``record`` replaced. Raises ValueError, which names an entry that cannot be."""
-        result = self
-        for name in ("auto_fit", "fresh"):
-            if name in given:
-                if not isinstance(given[name], bool):
-                    raise ValueError(f"{name} is true or false")
-                result = replace(result, **{name: given[name]})
-        if given.get("preset", self.preset) != self.preset:
-            if given["preset"] not in _PRESETS:
-                raise ValueError(f"preset is one of {', '.join(_PRESETS)}")
-            kept = {
-                name: getattr(self.settings, name)
-                for name in ("seed", "threshold", "fidelity", "shape_seconds", "shape_memory_mb", "workers")
-            }
-            result = replace(result, preset=given["preset"], settings=Settings.preset(given["preset"], **kept))
-        changes = {name: _checked(name, value) for name, value in given.items() if name in _FIT}
-        unknown = set(given) - {"auto_fit", "fresh", "preset", *_FIT}
+        fields = self.described()
+        unknown = [name for name in given if name not in fields]
         if unknown:
-            raise ValueError(f"no setting {', '.join(sorted(unknown))}")
-        return replace(result, settings=replace(result.settings, **changes))
-
-
-def _checked(name: str, value: Any) -> Any:
-    kind = get_type_hints(Settings)[name]
-    if name == "refine":
-        if value not in ("off", "quick", "thorough"):
-            raise ValueError("refine is off, quick or thorough")
-        return value
-    if isinstance(value, bool) or not isinstance(value, int | float) or (kind is int and value != int(value)):
-        raise ValueError(f"{name} is a {'whole ' if kind is int else ''}number")
-    if value < 0:
-        raise ValueError(f"{name}={value} is less than 0")
-    return kind(value)
+            raise ValueError(f"there is no setting {unknown[0]!r}{meant(unknown[0], fields)}")
+        checked = {name: fields[name].checked(value) for name, value in given.items()}
+        own = {name: value for name, value in checked.items() if name not in _FIT}
+        settings = self.settings
+        if own.get("preset", self.preset) != self.preset:
+            settings = Settings.preset(own["preset"], **{name: getattr(settings, name) for name in _KEPT})
+        fit = {name: value for name, value in checked.items() if name in _FIT}
+        return replace(self, **own, settings=replace(settings, **fit))

@@ -1,0 +1,47 @@
+"""The command ``shapewright evaluate``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+import typer
+
+from shapewright.cli.console import out, print_json, print_trials, progress_bars
+from shapewright.cli.options import Json, PresetOption, ProcedureArgument, with_settings
+from shapewright.procedures import load_procedure
+from shapewright.settings import Settings
+
+
+@with_settings("samples", "epochs", "cameras", "views", "augment", "refine", "device", "workers")
+def evaluate(
+    procedure: ProcedureArgument,
+    chosen: Mapping[str, Any],
+    seeds: Annotated[int, typer.Option(min=1, help="Trainings, each with another seed.")] = 1,
+    preset: PresetOption = "fast",
+    refined: Annotated[int, typer.Option(min=1, help="Held-out samples that refinement is measured on.")] = 100,
+    compare: Annotated[
+        Literal["cameras", "views", "both"] | None,
+        typer.Option(help="cameras: fixed against learned; views: 1, 2, 3 and 5 cameras; both: all combinations."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Measure how well the parameters of a procedure are found, on samples that were held out."""
+    from shapewright.fitting.evaluation import evaluate as run_trials
+    from shapewright.fitting.evaluation import summary, variants
+
+    settings = Settings.preset(preset, **chosen)
+    author = load_procedure(procedure)
+    records = []
+    for variant in variants(settings, compare):
+        with progress_bars() as listen:
+            trials = list(run_trials(author, [variant], range(seeds), listen, refined))
+        seconds = [trial.seconds for trial in trials]
+        record = {"cameras": variant.cameras, "views": variant.views, "parameters": summary(trials), "seconds": seconds}
+        records.append(record)
+        if not json:
+            if compare:
+                out.print(f"\n[bold]{variant.cameras} cameras, {variant.views}[/]", highlight=False)
+            print_trials(trials)
+    if json:
+        print_json({"variants": records} if compare else records[0])

@@ -1,0 +1,104 @@
+"""The command ``shapewright fit``, and how a command fits and saves one run."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+
+from shapewright.cli.console import err, iteration_record, print_iteration, print_json, progress_bars
+from shapewright.cli.options import Front, Json, PresetOption, ProcedureArgument, Up, with_settings
+from shapewright.cli.runs import explanation_of, judged_by_marks
+from shapewright.procedures import load_procedure
+from shapewright.runs.folder import RunError, check_free, check_writable, next_run, previous_run
+from shapewright.settings import Settings
+from shapewright.storage import cache_folder
+
+if TYPE_CHECKING:
+    from shapewright.procedures import Procedure
+    from shapewright.references import Collection
+    from shapewright.runs.iteration import Iteration
+
+
+@with_settings(
+    *("seed", "samples", "epochs", "cameras", "views", "augment", "refine", "rounds", "device"),
+    *("threshold", "fidelity", "align", "facing", "shape_seconds", "shape_memory_mb", "workers"),
+)
+def fit(
+    procedure: ProcedureArgument,
+    references: Annotated[str, typer.Argument(help="A folder, a glob in quotes, a CSV manifest, or a file.")],
+    chosen: Mapping[str, Any],
+    out_dir: Annotated[
+        Path | None, typer.Option("--out", help="Folder of this run.  [dim]default: the next free runs/NNN[/]")
+    ] = None,
+    preset: PresetOption = "fast",
+    previous: Annotated[
+        Path | None,
+        typer.Option("--from", help="A run of an earlier version to resume: quicker, and it keeps what was found."),
+    ] = None,
+    marks: Annotated[
+        bool, typer.Option("--marks", help="Judge as the project's marks say: see [bold]shapewright mark[/].")
+    ] = False,
+    up: Up = "y",
+    front: Front = None,
+    explain: Annotated[bool, typer.Option("--explain", help="Say why, and what to write next.")] = False,
+    json: Json = False,
+) -> None:
+    """Find the parameters of every reference, build replicas, and report what the procedure cannot make yet."""
+    from shapewright.references import Collection
+    from shapewright.runs.iteration import Iteration
+
+    folder = (out_dir or next_run(Path("runs"))).absolute()
+    check_free(folder)
+    settings = Settings.preset(preset, **{**(judged_by_marks(folder) if marks else {}), **chosen})
+    earlier = Iteration.load(previous) if previous else None
+    author, loaded = load_procedure(procedure), Collection.load(references, up=up, front=front)
+    check_writable(folder)
+    iteration, folder = fit_and_save(author, loaded, settings, folder, earlier, explain)
+    if json:
+        print_json(iteration_record(iteration, folder))
+    else:
+        print_iteration(iteration, folder)
+
+
+def fit_and_save(
+    procedure: Procedure,
+    references: Collection,
+    settings: Settings,
+    folder: Path,
+    previous: Iteration | None = None,
+    explained: bool = False,
+) -> tuple[Iteration, Path]:
+    """Run and save one iteration with its report, explained if wanted; returns it and the folder that it is in."""
+    from shapewright.fitting.fit import fit as iterate
+
+    try:
+        with progress_bars() as listen:
+            iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
+            explain = explanation_of(procedure, references, iteration, listen) if explained else None
+    except KeyboardInterrupt:
+        err.print("stopped: nothing of this run was written; earlier runs are as they were")
+        raise typer.Exit(130) from None
+    try:
+        return iteration, iteration.save(folder, _report(explain, previous_run(folder, set(iteration.names))))
+    except RunError as error:
+        refuge = next_run(Path(tempfile.gettempdir()) / "shapewright-runs")
+        err.print(f"[red]{escape(str(error))}[/]\nsaving to {escape(str(refuge))} instead", highlight=False)
+        iteration.save(refuge, _report(explain, None))
+        raise RunError(f"{error}\nThe run is whole in {refuge}; free some space and move it") from error
+
+
+def _report(explain: Callable[[Path], object] | None, previous: Path | None) -> Callable[[Path], None]:
+    """Writes the explanation, if there is one, and the report into the folder of a run."""
+    from shapewright.report import write_report
+
+    def write(folder: Path) -> None:
+        if explain:
+            explain(folder)
+        write_report(folder, previous)
+
+    return write

@@ -1,0 +1,65 @@
+"""Commands that make a project: an empty one, or the demo."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+
+from shapewright.cli.console import iteration_record, out, print_iteration, print_json
+from shapewright.cli.fits import fit_and_save
+from shapewright.cli.options import Json, Seed, Workers
+from shapewright.procedures import load_procedure
+from shapewright.runs.folder import RunError, check_writable, next_run
+from shapewright.settings import Settings
+
+
+def new(name: Annotated[Path, typer.Argument(help="The folder to make.")]) -> None:
+    """Start a project: a folder with a first procedure and a place for references."""
+    if name.exists():
+        raise RunError(f"{name}: exists already; name another folder")
+    (name / "references").mkdir(parents=True)
+    shutil.copyfile(Path(__file__).with_name("starter.py"), name / "procedure.py")
+    out.print(f"made {escape(str(name))}/procedure.py and {escape(str(name))}/references/", highlight=False)
+    out.print("\nPut meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF) into references, then:\n")
+    place = escape(str(name))
+    out.print(f"  shapewright studio {place}\n\nor, without a browser:\n", highlight=False)
+    out.print(f"  cd {place}\n  shapewright fit procedure.py references", highlight=False)
+
+
+def demo(
+    out_dir: Annotated[Path, typer.Option("--out", help="Folder for the demo's references and runs.")] = Path(
+        "demo-run"
+    ),
+    drawings: Annotated[bool, typer.Option("--drawings", help="Fifty drawings of tables instead of meshes.")] = False,
+    seed: Seed = Settings.seed,
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Fit two versions of a table procedure to bundled tables, and report what the second one gained."""
+    from shapewright.demo import drawings as drawn
+    from shapewright.demo import meshes as collection
+    from shapewright.demo import procedures
+    from shapewright.references import Collection
+
+    references = out_dir / "references"
+    (drawn if drawings else collection).write(references)
+    loaded, folder = Collection.load(str(references)), out_dir
+    for version in ("v3", "v5"):
+        folder = next_run(out_dir / "runs").absolute()
+        check_writable(folder)
+        if not json:
+            out.print(f"\n[bold]tables, {version}[/]", highlight=False)
+        settings = Settings(seed=seed, workers=workers)
+        iteration, folder = fit_and_save(load_procedure(procedures.path(version, drawings)), loaded, settings, folder)
+        if not json:
+            print_iteration(iteration, folder)
+    if not (out_dir / "procedure.py").exists():
+        shutil.copyfile(procedures.path(version), out_dir / "procedure.py")
+    if json:
+        print_json(iteration_record(iteration, folder))
+    else:
+        out.print(f"\nto go on in the browser: shapewright studio {escape(str(out_dir))}", highlight=False)

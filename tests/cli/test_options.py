@@ -1,0 +1,62 @@
+"""The options of the command line are those that the settings' fields describe."""
+
+import subprocess
+import sys
+from typing import get_args, get_type_hints
+
+import pytest
+from typer.testing import CliRunner
+
+from shapewright.cli.evaluations import evaluate
+from shapewright.cli.fits import fit
+from shapewright.cli.main import app
+from shapewright.cli.projects import demo
+from shapewright.cli.samples import sample
+from shapewright.cli.studio import studio
+from shapewright.settings import Settings, described, groups
+
+
+def options(command):
+    """Type and option of each setting that a command offers, by the setting's name."""
+    hints = get_type_hints(command, include_extras=True)
+    return {name: get_args(hints[name]) for name in hints if name in described()}
+
+
+@pytest.mark.parametrize("command", [fit, evaluate, studio, demo, sample])
+def test_help_choices_and_bounds_are_those_of_the_settings(command):
+    assert options(command)
+    for name, (hint, option) in options(command).items():
+        field = described()[name]
+        assert option.help.startswith(field.help)
+        assert (option.min, option.max) == (field.within.least, field.within.most)
+        assert not field.choices or get_args(get_args(hint)[0]) == field.choices
+
+
+def test_fit_offers_settings_of_every_group():
+    offered = options(fit)
+    assert all(offered.keys() & set(names) for names in groups().values())
+    assert "default: 15; of the preset paper: 50" in offered["epochs"][1].help
+    assert "default: 0.18" in offered["threshold"][1].help
+    assert "default: 5.0" in options(studio)["shape_seconds"][1].help
+
+
+def test_options_that_are_given_change_the_preset_and_others_do_not(monkeypatch, tmp_path):
+    taken = []
+    monkeypatch.setattr(
+        "shapewright.studio.server.launch.serve", lambda project, preferences, *_: taken.append(preferences)
+    )
+    (tmp_path / "procedure.py").write_text("")
+    assert CliRunner().invoke(app, ["studio", str(tmp_path), "--preset", "paper", "--epochs", "2"]).exit_code == 0
+    (preferences,) = taken
+    assert preferences.settings == Settings.preset("paper", epochs=2, shape_seconds=5.0)
+
+
+def test_a_choice_that_is_none_is_a_usage_error():
+    result = CliRunner().invoke(app, ["fit", "p.py", "references", "--refine", "quik"])
+    assert result.exit_code == 2 and all(word in result.output for word in described()["refine"].choices)
+
+
+def test_help_needs_no_torch_and_no_numba():
+    code = "import sys; from shapewright.cli.main import app; app(['fit', '--help'], standalone_mode=False); "
+    code += "sys.exit(any(name in sys.modules for name in ('torch', 'numba', 'sklearn')))"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=120).returncode == 0
