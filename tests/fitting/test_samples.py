@@ -67,6 +67,11 @@ def test_the_manifest_says_what_each_file_is(stool, tmp_path):
     assert sum(len(part.faces) for part in scene.geometry.values()) == int(made[0]["triangles"])
 
 
+def test_a_folder_begun_by_an_earlier_version_is_still_known(stool, tmp_path):
+    write_samples(stool, 1, tmp_path / "out", workers=1)
+    assert json.loads((tmp_path / "out" / "samples.json").read_text())["source"] == "8ccf404ea0f3195f"
+
+
 def test_the_files_do_not_depend_on_the_number_of_workers(stool, tmp_path):
     for workers in (1, 2):
         write_samples(stool, 10, tmp_path / str(workers), "ply", workers=workers)

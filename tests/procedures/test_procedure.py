@@ -5,7 +5,7 @@ import pytest
 
 import shapewright as sw
 from shapewright import Binary, Choice, Infeasible, Integer, Range, Scalar, When
-from shapewright.procedures import describe, place_of
+from shapewright.procedures import describe, place_of, source_digest
 
 TRIANGLE = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
 
@@ -109,6 +109,11 @@ def test_a_file_is_loaded_with_imports_of_its_own_folder(tmp_path):
     assert [p().vertices.max() for p in found] == [1.0, 2.0]
     assert found[0].path == tmp_path / "one" / "model.py"
     assert "VALUE" in found[0].source
+    assert found[0].digest == source_digest(found[0].path.read_text())
+
+
+def test_the_digest_of_a_text_stays_the_same_in_every_version():
+    assert source_digest("def f(): ...\n") == "b1a68332ee6c1635"
 
 
 def test_an_edited_helper_is_read_anew(tmp_path):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 import platform
 from collections.abc import Mapping, Sequence
@@ -262,10 +261,9 @@ def _error(build: Build, distance: float) -> str | None:
 
 
 def _describe(procedure: Procedure) -> Mapping[str, Any]:
-    source = procedure.source
     return {
         "name": procedure.name,
         "path": str(procedure.path) if procedure.path else None,
-        "digest": hashlib.sha256(source.encode()).hexdigest()[:16],
+        "digest": procedure.digest,
         "parameters": [to_record(parameter) for parameter in procedure.space],
     }

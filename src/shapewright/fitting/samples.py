@@ -83,6 +83,7 @@ def write_samples(
 
 
 def _record(procedure: Procedure, format: str, seed: int) -> dict[str, Any]:
+    """What ``samples.json`` holds. The digest is not that of runs: with another value no older folder could resume."""
     return {
         "format": _FORMAT,
         "procedure": procedure.name,

@@ -1,7 +1,14 @@
 """Procedures: the author's function, whose signature is its parameter space."""
 
 from shapewright.procedures.places import Place, describe, place_of
-from shapewright.procedures.procedure import Infeasible, Procedure, ProcedureError, load_procedure, procedure
+from shapewright.procedures.procedure import (
+    Infeasible,
+    Procedure,
+    ProcedureError,
+    load_procedure,
+    procedure,
+    source_digest,
+)
 
 __all__ = [
     "Infeasible",
@@ -12,4 +19,5 @@ __all__ = [
     "load_procedure",
     "place_of",
     "procedure",
+    "source_digest",
 ]

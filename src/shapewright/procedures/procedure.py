@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 import importlib.util
 import inspect
 import linecache
@@ -91,10 +92,15 @@ class Procedure:
         return _place(self.function)
 
     @property
+    def digest(self) -> str:
+        """The ``source_digest`` of its source."""
+        return source_digest(self.source)
+
+    @property
     def source(self) -> str:
         """The text of the author's file, or of the function alone when there is no file; empty if neither is known."""
         try:
-            return self.path.read_text() if self.path else inspect.getsource(self.function)
+            return self.path.read_text("utf-8") if self.path else inspect.getsource(self.function)
         except (OSError, TypeError):
             return ""
 
@@ -105,6 +111,11 @@ class Procedure:
 def procedure(function: Callable[..., Any]) -> Procedure:
     """Make a function a procedure. Raises ProcedureError when its signature is no parameter space."""
     return Procedure(function)
+
+
+def source_digest(source: str) -> str:
+    """A key for the text of a procedure, the same in every run and in the studio: 16 hexadecimal digits of SHA-256."""
+    return hashlib.sha256(source.encode()).hexdigest()[:16]
 
 
 def load_procedure(path: str | Path) -> Procedure:

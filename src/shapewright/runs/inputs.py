@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 
-from shapewright.procedures import Procedure, ProcedureError, load_procedure
+from shapewright.procedures import Procedure, ProcedureError, load_procedure, source_digest
 from shapewright.references import Collection, CollectionError
 from shapewright.runs.folder import RunError
 from shapewright.runs.iteration import Iteration
@@ -19,7 +18,7 @@ def procedure_of(run: Path, iteration: Iteration) -> Procedure:
     Raises RunError when neither can be loaded.
     """
     name, path = iteration.procedure["name"], iteration.procedure["path"]
-    if path and Path(path).is_file() and _digest(Path(path)) == iteration.procedure["digest"]:
+    if path and Path(path).is_file() and source_digest(Path(path).read_text("utf-8")) == iteration.procedure["digest"]:
         return load_procedure(f"{path}:{name}")
     try:
         return load_procedure(f"{run / 'procedure.py'}:{name}")
@@ -53,7 +52,3 @@ def references_of(run: Path, iteration: Iteration, moved_to: str | None = None) 
             f"put them back, or {again}"
         )
     return collection
-
-
-def _digest(path: Path) -> str:
-    return hashlib.sha256(path.read_text().encode()).hexdigest()[:16]

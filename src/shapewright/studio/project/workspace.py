@@ -8,6 +8,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from shapewright.procedures import source_digest
 from shapewright.runs.folder import runs
 from shapewright.storage import remove_leftovers, write_file
 from shapewright.studio.project.listing import Origin
@@ -102,7 +103,7 @@ class Project:
             raise ProjectError(f"{self.procedure.name} is not there any more") from error
         except (OSError, UnicodeDecodeError) as error:
             raise ProjectError(f"{self.procedure.name} cannot be read as UTF-8 text: {error}") from error
-        return text, digest(text)
+        return text, source_digest(text)
 
     def write_source(self, text: str, expected: str | None) -> str:
         """Replace the procedure's text, whole or not at all, and return its digest.
@@ -117,7 +118,7 @@ class Project:
             _write(self.scratch() / f"procedure-{time.strftime('%Y%m%d-%H%M%S')}-{found}.py", before)
             ending = "\r\n" if b"\r\n" in self.procedure.read_bytes() else "\n"
             _write(self.procedure, text.replace("\r\n", "\n").replace("\n", ending))
-        return digest(text)
+        return source_digest(text)
 
     def write_copy(self, text: str) -> Path:
         """Put a text beside the procedure under a new name, and return its path."""
@@ -150,11 +151,6 @@ class Project:
             found = {stem for stem in texts if stem.encode() in words} - used
         named = repr([(stem, texts.get(stem)) for stem in sorted(used)])
         return hashlib.blake2b(named.encode(), digest_size=8).hexdigest()
-
-
-def digest(text: str) -> str:
-    """As a run's record has it."""
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _write(path: Path, text: str) -> None:
