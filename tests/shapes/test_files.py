@@ -10,7 +10,8 @@ import trimesh
 
 from shapewright import Collection, Drawing, Mesh
 from shapewright.modelling.solids import box, cylinder
-from shapewright.shapes.files import encode, glb, obj, ply, svg
+from shapewright.shapes import concatenate
+from shapewright.shapes.files import encode, glb, obj, ply, read_glb, svg
 
 EXTRAS = {"procedure": "stool", "version": "1.2.3", "seed": 7, "parameters": {"height": 0.45, "round": True, "legs": 3}}
 
@@ -46,6 +47,54 @@ def test_other_readers_find_the_parts_of_a_glb(stool, tmp_path):
         assert len(part.faces) == (labels == name).sum()
     np.testing.assert_allclose(scene.bounds, stool.bounds, atol=1e-7)
     assert scene.metadata["procedure"] == "stool" and scene.metadata["parameters"]["legs"] == 3
+
+
+def labelled_triangles(mesh):
+    corners = mesh.triangles.astype(np.float32).tolist()
+    return sorted(zip(corners, [label or "" for label in mesh.labels], strict=True))
+
+
+@pytest.mark.parametrize(
+    "labels",
+    [
+        [None],
+        [None, None],
+        ["seat"],
+        ["seat", "legs"],
+        ["legs", "seat", "legs"],
+        ["seat", None],
+        ["front/left leg", "Stuhl \u00e4", "4", None],
+        ["shape"],
+        ["shape", None],
+        ["unlabelled"],
+        ["unlabelled", None],
+        [None, "unlabelled", "shape", "seat"],
+    ],
+    ids=str,
+)
+def test_a_glb_is_read_back_with_its_labels(labels):
+    cubes = [box(1, at=(2 * i, 0, 0)).mesh() for i in range(len(labels))]
+    mesh = concatenate([c if name is None else c.label(name) for c, name in zip(cubes, labels, strict=True)])
+    again = read_glb(glb(mesh, EXTRAS))
+    assert labelled_triangles(again) == labelled_triangles(mesh)
+    assert (again.face_labels is None) == (labels == [None] * len(labels))
+    assert len(again.vertices) == len(mesh.vertices)
+
+
+def test_parts_that_share_vertices_share_them_again(stool):
+    again = read_glb(glb(stool))
+    assert labelled_triangles(again) == labelled_triangles(stool) and len(again.vertices) == len(stool.vertices)
+    assert again.soundness() == stool.soundness()
+
+
+def test_labels_of_which_no_face_is_left_are_no_labels():
+    mesh = Mesh(box(1).mesh().vertices, box(1).mesh().faces, np.full(12, -1), ("seat",))
+    assert set(read_glb(glb(mesh)).labels) == {None}
+
+
+def test_only_a_part_named_like_one_without_label_says_that_it_is_a_label(stool):
+    assert b'"label"' not in glb(stool) and b'"label"' not in glb(box(1).mesh())
+    assert document(glb(box(1).mesh().label("shape")))["meshes"][0]["extras"] == {"label": True}
 
 
 def test_ply_keeps_double_precision_labels_and_extras(stool):

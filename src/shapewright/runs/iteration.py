@@ -6,7 +6,7 @@ import csv
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -16,13 +16,11 @@ import numpy as np
 from shapewright.comparison.grouping import Group
 from shapewright.judging.metric import Metric, light_field
 from shapewright.prediction.predictor import Predictor
-from shapewright.references.readers.svg import read_svg
 from shapewright.rendering.thumbnails import thumbnails
 from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
-from shapewright.runs.result import Result, from_record, replica_path, to_record
+from shapewright.runs.result import Result, from_record, read_replica, replica_path, to_record
 from shapewright.settings import Settings
-from shapewright.shapes import Mesh, Shape, concatenate
-from shapewright.shapes.files import NO_LABEL, encode
+from shapewright.shapes.files import encode
 from shapewright.storage import file_names
 
 Pictures = Mapping[str, tuple[bytes, bytes | None]]
@@ -130,7 +128,7 @@ class Iteration:
         settings = Settings.from_record(record["settings"])
         groups = tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"])
         return cls(
-            results=tuple(from_record(entry, _read_replica(folder, entry)) for entry in record["references"]),
+            results=tuple(from_record(entry, read_replica(folder, entry)) for entry in record["references"]),
             metric=Metric(**record["metric"]) if "metric" in record else light_field(settings.threshold),
             groups=groups,
             settings=settings,
@@ -202,20 +200,3 @@ def _read_pictures(folder: Path, slug: str) -> tuple[bytes, bytes | None]:
     return (folder / "thumbnails" / f"{slug}.reference.png").read_bytes(), (
         replica.read_bytes() if replica.exists() else None
     )
-
-
-def _read_replica(folder: Path, entry: Mapping[str, Any]) -> Shape | None:
-    import trimesh
-
-    if not entry["replica"]:
-        return None
-    if entry["replica"].endswith(".svg"):
-        return read_svg((folder / entry["replica"]).read_bytes())[0]
-    scene = trimesh.load_scene(folder / entry["replica"], process=False)
-    parts = {name: Mesh(part.vertices, part.faces) for name, part in scene.geometry.items()}
-    whole = concatenate([part if name in NO_LABEL else part.label(name) for name, part in parts.items()])
-    if len(parts) == 1:
-        return whole
-    # A file holds each part's vertices apart from the others'; equal ones are one again.
-    vertices, index = np.unique(whole.vertices, axis=0, return_inverse=True)
-    return replace(whole, vertices=vertices, faces=index.ravel()[whole.faces])

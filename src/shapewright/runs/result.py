@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.parameters import Parameters
+from shapewright.references.readers.svg import read_svg
 from shapewright.shapes import Mesh, Shape
+from shapewright.shapes.files import read_glb
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +89,17 @@ def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
 def replica_path(replica: Shape | None, slug: str) -> str | None:
     """Where a run keeps a replica, GLB or SVG."""
     return f"replicas/{slug}.{'glb' if isinstance(replica, Mesh) else 'svg'}" if replica else None
+
+
+def read_replica(run: Path, entry: Mapping[str, Any]) -> Shape | None:
+    """The replica of an entry in a run's record, with its labels; None where it has none.
+
+    Raises OSError or ValueError for a file that is missing or broken.
+    """
+    if not entry["replica"]:
+        return None
+    data = (run / entry["replica"]).read_bytes()
+    return read_svg(data)[0] if entry["replica"].endswith(".svg") else read_glb(data)
 
 
 def _finite(value: float) -> float | None:

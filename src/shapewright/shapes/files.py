@@ -6,9 +6,11 @@ and STL hold coordinates in single precision, the others in double.
 
 from __future__ import annotations
 
+import io
 import json
 import struct
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any, Literal, TypeAlias
 from xml.sax.saxutils import escape
 
@@ -16,7 +18,7 @@ import numpy as np
 
 from shapewright.shapes.arrays import Ints
 from shapewright.shapes.drawing import Drawing
-from shapewright.shapes.mesh import Mesh
+from shapewright.shapes.mesh import Mesh, concatenate
 from shapewright.shapes.shape import Shape
 
 Format: TypeAlias = Literal["glb", "ply", "obj", "stl", "off"]
@@ -24,8 +26,8 @@ Extras: TypeAlias = Mapping[str, Any]
 
 _NAME = "shape"
 _REST = "unlabelled"
-NO_LABEL = (_NAME, _REST)
-"""Names in files of faces without a label."""
+_NO_LABEL = (_NAME, _REST)
+"""Names in files of faces without a label; a GLB says with each part of such a name if it is a label after all."""
 
 
 def encode(shape: Shape, format: Format = "glb", extras: Extras | None = None) -> bytes:
@@ -48,11 +50,13 @@ def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
     views: list[dict[str, Any]] = []
     meshes: list[dict[str, Any]] = []
     nodes: list[dict[str, Any]] = [{"name": _title(extras)}]
-    for name, faces in _parts(mesh):
+    for name, faces, label in _parts(mesh):
         used, corners = np.unique(faces, return_inverse=True)
         positions = mesh.vertices[used].astype(np.float32)
         arrays = (positions, corners.ravel().astype(np.uint16 if len(used) <= 0xFFFF else np.uint32))
         meshes.append({"name": name, "primitives": [_primitive(len(accessors))]})
+        if label and name in _NO_LABEL:
+            meshes[-1]["extras"] = {"label": True}
         nodes.append({"name": name, "mesh": len(meshes) - 1})
         for array, target in zip(arrays, (34962, 34963), strict=True):
             data = array.tobytes()
@@ -76,6 +80,25 @@ def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer), b"BIN\0") + buffer
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def read_glb(data: bytes) -> Mesh:
+    """The mesh of a file that ``glb`` wrote, with its labels."""
+    import trimesh
+
+    written = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])["meshes"]
+    scene = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False)
+    parts = []
+    for entry, part in zip(written, scene.geometry.values(), strict=True):
+        mesh = Mesh(part.vertices, part.faces)
+        labelled = entry["name"] not in _NO_LABEL or entry.get("extras", {}).get("label")
+        parts.append(mesh.label(entry["name"]) if labelled else mesh)
+    whole = concatenate(parts)
+    if len(parts) == 1:
+        return whole
+    # A file holds each part's vertices apart from the others'; equal ones are one again.
+    vertices, index = np.unique(whole.vertices, axis=0, return_inverse=True)
+    return replace(whole, vertices=vertices, faces=index.ravel()[whole.faces])
 
 
 def ply(mesh: Mesh, extras: Extras | None = None) -> bytes:
@@ -104,7 +127,7 @@ def obj(mesh: Mesh, extras: Extras | None = None) -> bytes:
     lines = [f"# extras {_json(extras)}"] if extras else []
     lines.append(f"o {_title(extras)}")
     lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
-    for name, faces in _parts(mesh):
+    for name, faces, _ in _parts(mesh):
         lines.append(f"g {'_'.join(name.split())}")
         lines += [f"f {a} {b} {c}" for a, b, c in (faces + 1).tolist()]
     return ("\n".join(lines) + "\n").encode()
@@ -121,14 +144,14 @@ def svg(drawing: Drawing, extras: Extras | None = None) -> bytes:
     return f'{head}<g transform="scale(1 -1)">{shape}</g></svg>'.encode()
 
 
-def _parts(mesh: Mesh) -> Iterator[tuple[str, Ints]]:
-    """The faces of each label that has any; of a mesh without labels, all of them."""
+def _parts(mesh: Mesh) -> Iterator[tuple[str, Ints, bool]]:
+    """Name and faces of each label that has any, and whether it is a label; of a mesh without labels, all its faces."""
     if mesh.face_labels is None:
-        yield _NAME, mesh.faces
+        yield _NAME, mesh.faces, False
         return
     for i, name in (*enumerate(mesh.label_names), (-1, _REST)):
         if (chosen := mesh.face_labels == i).any():
-            yield name, mesh.faces[chosen]
+            yield name, mesh.faces[chosen], i >= 0
 
 
 def _labels(mesh: Mesh) -> Ints:

@@ -7,6 +7,8 @@ import zipfile
 import pytest
 
 from broken_disk import full_after, killed
+from shapewright.modelling.solids import box
+from shapewright.shapes.files import encode
 from shapewright.studio.jobs.export_job import pack
 
 
@@ -23,6 +25,18 @@ def request_(tmp_path):
         "what": ["report"],
         "format": "glb",
     }
+
+
+def test_replicas_keep_their_labels_in_another_format(tmp_path, request_):
+    run = tmp_path / "runs" / "001"
+    (run / "replicas").mkdir()
+    (run / "replicas" / "a.glb").write_bytes(encode((box(1).label("seat") | box(1, at=(2, 0, 0))).mesh()))
+    entry = {"name": "a", "slug": "a", "replica": "replicas/a.glb", "parameters": {"height": 1.0}}
+    record = {"format": 1, "procedure": {"name": "stool"}, "references": [entry, {"replica": None}]}
+    (run / "iteration.json").write_text(json.dumps(record))
+    file = pack({**request_, "what": ["replicas"], "format": "ply"}, io.StringIO())
+    data = zipfile.ZipFile(file).read("replicas/a.ply")
+    assert b"comment label 0 seat\n" in data and b"element vertex 16\n" in data and b'"reference":"a"' in data
 
 
 def test_an_export_is_whole_or_not_there(tmp_path, request_):

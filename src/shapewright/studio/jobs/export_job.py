@@ -7,12 +7,15 @@ import time
 import zipfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 from urllib.parse import quote
 
 from shapewright.runs.folder import read_record
 from shapewright.storage import remove_leftovers, scratch_folder, whole_file
 from shapewright.studio.jobs.fit_job import fail, streams, tell
+
+if TYPE_CHECKING:
+    from shapewright.shapes.files import Format
 
 _KEPT = 5
 """Exports that are left in the project's scratch folder; older ones are deleted."""
@@ -45,8 +48,9 @@ def _names(run: Path | None) -> list[str]:
     return [run.name] if run else []
 
 
-def _replicas(run: Path, format: str, events: TextIO) -> Iterator[tuple[str, bytes]]:
+def _replicas(run: Path, format: Format, events: TextIO) -> Iterator[tuple[str, bytes]]:
     """Names and contents of the replicas' files; each says in its extras which reference it replicates."""
+    from shapewright.runs.result import read_replica
     from shapewright.shapes.files import encode
 
     record = read_record(run)
@@ -57,19 +61,10 @@ def _replicas(run: Path, format: str, events: TextIO) -> Iterator[tuple[str, byt
             yield file.name, file.read_bytes()
         else:
             extras = {"procedure": record["procedure"]["name"], "reference": entry["name"]}
-            shape = _mesh(file)
-            yield f"{entry['slug']}.{format}", encode(shape, format, {**extras, "parameters": entry["parameters"]})  # type: ignore[arg-type]
+            shape = read_replica(run, entry)
+            assert shape is not None
+            yield f"{entry['slug']}.{format}", encode(shape, format, {**extras, "parameters": entry["parameters"]})
         tell(events, event="progress", stage="replicas", done=done + 1, total=len(entries), remark="")
-
-
-def _mesh(file: Path) -> Any:
-    import numpy as np
-    import trimesh
-
-    from shapewright.shapes import Mesh
-
-    mesh = trimesh.load_mesh(file, process=False)
-    return Mesh(np.asarray(mesh.vertices), np.asarray(mesh.faces))
 
 
 def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, events: TextIO) -> None:
