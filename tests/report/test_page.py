@@ -16,6 +16,7 @@ from broken_disk import full_after, hidden, shown
 from shapewright.report import write_report
 from shapewright.report.page import FAR, GREEN, RED, YELLOW, colour
 from shapewright.runs.changes import Move, compare
+from shapewright.runs.folder import RunError
 
 EVIL = """<img src=x onerror="window.broken=1"></script><script>window.broken=1</script>&amp; {{ 7*7 }}'"\u2028"""
 
@@ -343,8 +344,8 @@ def test_a_full_disk_leaves_the_page_as_it_was(tmp_path: Path) -> None:
 
 
 def test_what_is_no_run_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match=r"holds no iteration\.json"):
+    with pytest.raises(RunError, match=r"holds no iteration\.json"):
         write_report(tmp_path)
     (tmp_path / "iteration.json").write_text('{"format": 2}')
-    with pytest.raises(ValueError, match="has format 2; this version of shapewright reads format 1"):
+    with pytest.raises(RunError, match="has format 2; this version of shapewright reads format 1"):
         write_report(tmp_path)

@@ -96,9 +96,6 @@ def report(
     """Write a run's report anew and print its path."""
     from shapewright.report import write_report
 
-    read_record(run)
-    if previous:
-        read_record(previous)
     path = write_report(run.absolute(), previous or previous_run(run.absolute()))
     if json:
         print_json({"report": str(path)})

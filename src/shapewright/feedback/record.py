@@ -17,8 +17,8 @@ from shapewright.feedback.explanation import Explanation
 from shapewright.feedback.suggestions import Suggestion
 from shapewright.feedback.surfaces.residuals import Region
 from shapewright.report import write_report
-from shapewright.report.explained import EXPLANATION, PICTURES
-from shapewright.runs.folder import RunError
+from shapewright.report.explained import PICTURES
+from shapewright.runs.folder import EXPLANATION, RunError
 from shapewright.storage import scratch_folder
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
 from collections.abc import Mapping, Sequence
 from itertools import product
 from pathlib import Path
@@ -13,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import THUMBNAIL, pack
+from shapewright.runs.folder import EXPLANATION, read_json
 
-EXPLANATION, PICTURES = "explanation.json", "suggestions"
+PICTURES = "suggestions"
 SHOWN = 6
 """Regions drawn on a pair of thumbnails, at most; the first ones of a record are the weightiest."""
 _EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b) in (1, 2, 4)]
@@ -27,7 +27,7 @@ def read_explanation(folder: Path) -> dict[str, Any] | None:
     path = folder / EXPLANATION
     if not path.is_file():
         return None
-    record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"), parse_constant=lambda _: None)
+    record = read_json(path)
     for suggestion in record["suggestions"]:
         picture = folder / suggestion["picture"] if suggestion.get("picture") else None
         data = base64.b64encode(picture.read_bytes()).decode() if picture and picture.is_file() else None

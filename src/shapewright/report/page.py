@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import json
 import math
 from datetime import datetime
 from pathlib import Path
@@ -16,9 +15,9 @@ from PIL import Image
 
 from shapewright.report.explained import badges, outlines, read_explanation
 from shapewright.runs.changes import compare
+from shapewright.runs.folder import read_record
 from shapewright.storage import write_file
 
-FORMAT = 1
 # The paper's colours: green for a perfect replica, yellow at the threshold, red from FAR thresholds on, unless the
 # record's metric says where.
 GREEN, YELLOW, RED = (62, 166, 100), (247, 205, 70), (222, 74, 62)
@@ -33,11 +32,10 @@ def write_report(folder: Path, previous: Path | None = None, explanation: Path |
     previous: the folder of an earlier iteration to compare with. explanation: the folder that holds
     ``explanation.json``, where that is another one; without such a file nothing is explained. Pictures are put into
     the page, so that the file can be moved or sent; only its links to replicas (GLB) point into the folder. Thumbnails
-    that are missing are left blank. Raises FileNotFoundError for a folder without a record, ValueError for a record of
-    another format.
+    that are missing are left blank. Raises RunError for a folder without a record, or with one of another format.
     """
-    record = _read(folder)
-    earlier = _read(previous) if previous else None
+    record = read_record(folder)
+    earlier = read_record(previous) if previous else None
     environment = Environment(
         loader=PackageLoader("shapewright.report", "."),
         autoescape=True,
@@ -66,17 +64,6 @@ def colour(distance: float | None, threshold: float, far: float = FAR) -> str:
     start, end = (GREEN, YELLOW) if near else (YELLOW, RED)
     part = distance / threshold if near else min(1.0, (distance / threshold - 1.0) / (far - 1.0))
     return "#" + "".join(f"{round(a + (b - a) * part):02x}" for a, b in zip(start, end, strict=True))
-
-
-def _read(folder: Path) -> dict[str, Any]:
-    path = folder / "iteration.json"
-    if not path.is_file():
-        raise FileNotFoundError(f"{folder} is not the folder of an iteration: it holds no iteration.json")
-    # A number that is not finite has no place in JSON: browsers refuse it. It is shown as unknown.
-    record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"), parse_constant=lambda _: None)
-    if record.get("format") != FORMAT:
-        raise ValueError(f"{path} has format {record.get('format')}; this version of shapewright reads format {FORMAT}")
-    return record
 
 
 def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] | None) -> dict[str, Any]:

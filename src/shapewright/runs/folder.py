@@ -13,7 +13,7 @@ from typing import Any
 from shapewright.storage import is_free, whole_folder
 
 FORMAT = 1
-RECORD = "iteration.json"
+RECORD, EXPLANATION = "iteration.json", "explanation.json"
 
 
 class RunError(Exception):
@@ -82,11 +82,21 @@ def read_record(folder: Path) -> dict[str, Any]:
     """The record of a run's folder. Raises RunError when there is none, or one of an unknown format."""
     path = folder / RECORD
     try:
-        record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        record = read_json(path)
     except FileNotFoundError as error:
-        raise RunError(f"{folder}: no run here ({RECORD} is missing)") from error
+        raise RunError(f"{folder}: no run here: it holds no {RECORD}") from error
     except (OSError, ValueError) as error:
         raise RunError(f"{path}: cannot be read: {error}") from error
     if record.get("format") != FORMAT:
-        raise RunError(f"{path}: format {record.get('format')!r}; this version of shapewright reads {FORMAT}")
+        found = record.get("format")
+        raise RunError(f"{path} has format {found!r}; this version of shapewright reads format {FORMAT}")
+    return record
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """A file of a run; None stands for a number that is not finite, since browsers refuse these.
+
+    Raises OSError or ValueError for a file that cannot be read.
+    """
+    record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"), parse_constant=lambda _: None)
     return record

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from shapewright.runs.folder import RunError, previous_run, read_record
+from shapewright.runs.folder import RECORD, RunError, previous_run, read_record
 from shapewright.storage import write_file
 
 MARKS = "marks.json"
@@ -95,7 +95,7 @@ def read_marks(run: Path, measured: bool = True) -> list[Mark]:
     run: it need not exist yet; the newest run before it says what is not in the file then.
     """
     beside: dict[str, Mapping[str, Any]] = {}
-    source = run if (run / "iteration.json").exists() else previous_run(run)
+    source = run if (run / RECORD).exists() else previous_run(run)
     if source:
         beside = {entry["name"]: entry for entry in read_record(source)["references"]}
     marks = []

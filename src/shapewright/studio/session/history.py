@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.runs.changes import Move, compare
-from shapewright.runs.folder import RECORD, RunError, read_record
+from shapewright.runs.folder import EXPLANATION, RECORD, RunError, read_record
 from shapewright.studio.session.board import metric_of, tint
 
-EXPLANATION = "explanation.json"
 Address = Callable[[Path], str | None]
 
 

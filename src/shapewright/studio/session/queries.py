@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from shapewright.runs.folder import read_record
+from shapewright.runs.folder import EXPLANATION, read_json, read_record
 from shapewright.studio.jobs.fit_job import PREDICTIONS
 from shapewright.studio.project.workspace import Missing
 from shapewright.studio.session.board import Tile, tint
-from shapewright.studio.session.history import EXPLANATION, source_of
+from shapewright.studio.session.history import source_of
 from shapewright.studio.session.session import Session
 
 _OF_SUGGESTIONS = {"title": "", "text": "", "snippet": None, "source": None, "gain": None, "tried": None}
@@ -99,7 +98,7 @@ def _read(run: Path | None, name: str) -> dict[str, Any]:
     if run is None:
         return {}
     try:
-        found = json.loads((run / name).read_text(encoding="utf-8"))
+        found: Any = read_json(run / name)
     except (OSError, ValueError):
         return {}
     return found if isinstance(found, dict) else {}

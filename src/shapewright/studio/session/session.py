@@ -11,7 +11,7 @@ from typing import Any
 from shapewright.judging.metric import Metric, fidelity, light_field
 from shapewright.progress import AnswerKind
 from shapewright.references.errors import CollectionError
-from shapewright.runs.folder import RunError
+from shapewright.runs.folder import EXPLANATION, RunError
 from shapewright.runs.marks import pairs, replace_pairs
 from shapewright.storage import cache_folder
 from shapewright.studio.bench.client import BenchError, BenchProcess
@@ -21,7 +21,7 @@ from shapewright.studio.project.preferences import Preferences
 from shapewright.studio.project.watch import watch
 from shapewright.studio.project.workspace import Project, ProjectError
 from shapewright.studio.session.board import Stage, tint
-from shapewright.studio.session.history import EXPLANATION, summaries
+from shapewright.studio.session.history import summaries
 from shapewright.studio.session.pages import Page, Pages
 from shapewright.studio.session.showing import Showing
 from shapewright.studio.wire.problems import Problem
