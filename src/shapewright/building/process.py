@@ -16,38 +16,29 @@ from typing import Any
 from shapewright.building.clock import COMPILING
 from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.parameters import Parameters
-from shapewright.procedures import ProcedureError
 
+_PROGRAM = "shapewright.building.worker"
 _START_SECONDS = 60.0
-_STEP = 0.1
-_SINGLE_THREADED = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+SINGLE_THREADED = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 
 class WorkerProcess:
     """One worker process and the connection to it.
 
-    program: the module that it runs. patience: seconds until it must have read the procedure's file. stop: leave off
-    waiting for that. ready: what it answers then.
+    payload: the procedure, pickled. Raises ProcedureError when it cannot be loaded.
     """
 
-    def __init__(
-        self,
-        payload: bytes,
-        limits: Limits,
-        program: str = "shapewright.building.worker",
-        patience: float = _START_SECONDS,
-        stop: threading.Event | None = None,
-    ) -> None:
+    def __init__(self, payload: bytes, limits: Limits) -> None:
         self.limits = limits
         key = secrets.token_bytes(32)
         with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
             address = None if sys.platform == "win32" else str(Path(folder) / "worker")
             with Listener(address, authkey=key) as listener:
                 self.process = subprocess.Popen(
-                    [sys.executable, "-m", program, str(listener.address)],
+                    [sys.executable, "-m", _PROGRAM, str(listener.address)],
                     stdin=subprocess.PIPE,
                     stdout=sys.stderr.fileno() if _has_descriptor(sys.stderr) else subprocess.DEVNULL,
-                    env={**os.environ, **_SINGLE_THREADED},
+                    env={**os.environ, **SINGLE_THREADED},
                 )
                 assert self.process.stdin is not None
                 self.process.stdin.write(key)
@@ -55,17 +46,13 @@ class WorkerProcess:
                 self.connection = self._accept(listener)
         self.connection.send_bytes(payload)
         self.connection.send(limits)
-        waited = 0.0
-        while not self.connection.poll(_STEP):
-            waited += _STEP
-            if waited >= patience or (stop and stop.is_set()):
-                self.stop()
-                message = f"a worker process read the procedure's file and did not answer within {waited:g} s"
-                raise ProcedureError(message, kind="time")
-        self.ready = self._receive()
-        if isinstance(self.ready, Failure):
+        if not self.connection.poll(_START_SECONDS):
             self.stop()
-            raise self.ready.error()
+            raise no_answer(_START_SECONDS).error()
+        ready = self._receive()
+        if isinstance(ready, Failure):
+            self.stop()
+            raise ready.error()
 
     def ask(self, parameters: list[Parameters], stop: threading.Event) -> list[Build] | Failure:
         """The builds of the first few vectors (at least one), or the failure that ended the worker.
@@ -87,7 +74,7 @@ class WorkerProcess:
         try:
             self.connection.send(request)
         except OSError:
-            return self._death()
+            return crash(self.process)
         answer: Any = COMPILING
         while answer == COMPILING:
             answer = self._wait(stop)
@@ -99,25 +86,16 @@ class WorkerProcess:
             while not self.connection.poll(min(0.2, patience)):
                 patience -= 0.2
                 if stop.is_set() or patience <= 0.0:
-                    return Failure("time", f"it took longer than {self.limits.seconds:g} s")
+                    return too_long(self.limits)
         except OSError:
-            return self._death()
+            return crash(self.process)
         return self._receive()
 
     def _receive(self) -> Any:
         try:
             return self.connection.recv()
         except (EOFError, OSError):
-            return self._death()
-
-    def _death(self) -> Failure:
-        try:
-            status = self.process.wait(timeout=2.0)
-        except subprocess.TimeoutExpired:
-            return Failure("crash", "the worker process broke off its answer")
-        if status < 0:
-            return Failure("crash", f"it killed its process (signal {-status})")
-        return Failure("crash", f"it ended its process (exit status {status})")
+            return crash(self.process)
 
     def _accept(self, listener: Listener) -> Connection:
         accepted: queue.SimpleQueue[Connection | BaseException] = queue.SimpleQueue()
@@ -147,6 +125,27 @@ class WorkerProcess:
             self.connection.close()
         self.process.kill()
         self.process.wait()
+
+
+def crash(process: subprocess.Popen[bytes]) -> Failure:
+    """Of a shape with which a process broke off its answer."""
+    try:
+        status = process.wait(timeout=2.0)
+    except subprocess.TimeoutExpired:
+        return Failure("crash", "the worker process broke off its answer")
+    if status < 0:
+        return Failure("crash", f"it killed its process (signal {-status})")
+    return Failure("crash", f"it ended its process (exit status {status})")
+
+
+def too_long(limits: Limits) -> Failure:
+    """Of a shape that did not stop at the time limit by itself."""
+    return Failure("time", f"it took longer than {limits.seconds:g} s")
+
+
+def no_answer(seconds: float) -> Failure:
+    """Of a procedure's file that did not stop being read."""
+    return Failure("time", f"a worker process read the procedure's file and did not answer within {seconds:g} s")
 
 
 def _has_descriptor(stream: Any) -> bool:

@@ -8,18 +8,20 @@ library written in C) is killed by the parent.
 from __future__ import annotations
 
 import pickle
+import signal
 import sys
 from collections.abc import Callable
-from multiprocessing.connection import Connection
 from pathlib import Path
+from typing import Any, BinaryIO
 
-from shapewright.building.clock import COMPILING, TimeLimit, time_limit
+from shapewright.building.clock import TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure, Limits
-from shapewright.building.worker import attend, build, limit_memory
+from shapewright.building.worker import build, limit_memory
 from shapewright.parameters import Parameters, to_record
 from shapewright.procedures import Procedure, ProcedureError, describe, load_procedure, place_of
 from shapewright.shapes import Mesh
 from shapewright.studio.bench.built import Built, Version
+from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 
 LOADING_SECONDS = 20.0
 """What reading the author's file may take, its imports included."""
@@ -45,25 +47,42 @@ def try_build(
         return Built(Build(dict(values), None, Failure("raised", str(error), procedure.place)))
 
 
-def serve(connection: Connection) -> None:
-    """Answer requests, a mapping of values each, until the other side hangs up."""
-    target, search_path = pickle.loads(connection.recv_bytes())
-    limits: Limits = connection.recv()
-    sys.path[:] = search_path
+def serve(requests: BinaryIO, answers: BinaryIO) -> None:
+    """Load the procedure that the first request names and build the shape of every later one, until there are no more.
+
+    Requests and answers are pickled payloads; a message "working" asks the other side for patience.
+    """
+
+    def answer(value: Version | Built | Failure) -> None:
+        write_frame(answers, "answer", pickle.dumps(value))
+
+    def working() -> None:
+        write_frame(answers, "working")
+
+    working()
+    received = _received(requests)
+    if received is None:
+        return
+    target, sys.path[:], limits = received
     try:
         with time_limit(LOADING_SECONDS):
             procedure = load_procedure(target)
             version = _version(procedure)
     except TimeLimit as error:
-        connection.send(Failure("time", describe(error), place_of(error, Path(target))))
+        answer(Failure("time", describe(error), place_of(error, Path(target))))
         return
     except ProcedureError as error:
-        connection.send(Failure("raised", error.message, error.place))
+        answer(Failure("raised", error.message, error.place))
         return
     limit_memory(limits.memory_mb)
-    connection.send(version)
-    while True:
-        connection.send(try_build(procedure, connection.recv(), limits, lambda: connection.send(COMPILING)))
+    answer(version)
+    while (values := _received(requests)) is not None:
+        answer(try_build(procedure, values, limits, working))
+
+
+def _received(requests: BinaryIO) -> Any:
+    frame = read_frame(requests)
+    return pickle.loads(frame[1]) if frame else None
 
 
 def _version(procedure: Procedure) -> Version:
@@ -72,4 +91,5 @@ def _version(procedure: Procedure) -> Version:
 
 
 if __name__ == "__main__":
-    attend(serve)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    serve(*own_streams())

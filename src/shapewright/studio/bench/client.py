@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import itertools
-import json
 import time
 from collections.abc import Callable
 from typing import Any
 
-from shapewright.studio.jobs.runner import end, spawn
 from shapewright.studio.project.workspace import Missing
+from shapewright.studio.wire.child import Child, Frame, on_this_loop
 
-_PROGRAM = ("-m", "shapewright.studio.bench.program")
+_PROGRAM = "shapewright.studio.bench.program"
 _REPLY_SECONDS = 60.0
 _SOON, _OFTEN = 5.0, 3
 Message = dict[str, Any]
@@ -38,25 +36,27 @@ class BenchProcess:
         lost: Callable[[], object],
     ) -> None:
         self._heard, self._live, self._started, self._lost = heard, live, started, lost
-        self._process: asyncio.subprocess.Process | None = None
+        self._child: Child | None = None
         self._replies: dict[int, asyncio.Future[tuple[Message, bytes]]] = {}
         self._numbers = itertools.count(1)
 
     @property
     def ready(self) -> bool:
-        return self._process is not None
+        return self._child is not None
 
     async def run(self) -> None:
         """Keep a bench going until cancelled. Raises BenchError when it dies again and again as soon as it starts."""
         hasty = 0
         while hasty < _OFTEN:
             begun = time.monotonic()
-            process = await spawn(*_PROGRAM)
+            frames: asyncio.Queue[Frame | None] = asyncio.Queue()
+            child = Child(_PROGRAM, on_this_loop(frames.put_nowait))
             try:
-                await self._listen(process)
+                while frame := await frames.get():
+                    self._hear(child, *frame)
             finally:
-                self._process = None
-                await asyncio.shield(end(process))
+                self._child = None
+                await asyncio.shield(asyncio.to_thread(child.end))
             for reply in self._replies.values():
                 if not reply.done():
                     reply.set_exception(BenchError("the bench had to start again; ask once more"))
@@ -65,29 +65,24 @@ class BenchProcess:
             self._lost()
         raise BenchError(f"the bench process ended {_OFTEN} times as soon as it had started; the terminal says more")
 
-    async def _listen(self, process: asyncio.subprocess.Process) -> None:
-        assert process.stdout is not None
-        with contextlib.suppress(asyncio.IncompleteReadError, ConnectionError):
-            while line := await process.stdout.readline():
-                envelope = json.loads(line)
-                payload = await process.stdout.readexactly(envelope["size"]) if envelope["size"] else b""
-                message = envelope["message"]
-                if envelope["to"] == "live":
-                    self._live(envelope["client"], message, payload)
-                elif envelope["to"] == "reply":
-                    reply = self._replies.pop(envelope["request"], None)
-                    if reply and not reply.done():
-                        reply.set_result((message, payload))
-                elif message["type"] == "ready":
-                    self._process = process
-                    self._started()
-                else:
-                    self._heard(message, payload)
+    def _hear(self, child: Child, envelope: Message, payload: bytes) -> None:
+        message = envelope["message"]
+        if envelope["to"] == "live":
+            self._live(envelope["client"], message, payload)
+        elif envelope["to"] == "reply":
+            reply = self._replies.pop(envelope["request"], None)
+            if reply and not reply.done():
+                reply.set_result((message, payload))
+        elif message["type"] == "ready":
+            self._child = child
+            self._started()
+        else:
+            self._heard(message, payload)
 
     def ask(self, request: Message) -> None:
         """Send a request; without a bench it is lost, and ``started`` will say when there is one again."""
-        if self._process and self._process.stdin and not self._process.stdin.is_closing():
-            self._process.stdin.write(json.dumps(request).encode() + b"\n")
+        if self._child:
+            self._child.send(request)
 
     async def fetch(self, request: Message) -> tuple[Message, bytes]:
         """The answer to a request of kind ``fetch``. Raises BenchError, Missing where there is no such thing."""

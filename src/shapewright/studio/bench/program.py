@@ -1,15 +1,11 @@
 """The program of the bench: the process that draws and measures for the server, beside any fit.
 
-Requests are lines of JSON on standard input, answers envelopes (see frames) on standard output. What the author is
-waiting for at this moment, live evaluation, comes first; pictures and sweeps over the whole collection are done in
-between, shape by shape.
+Requests and answers are frames (see wire/child). What the author waits for at this moment, live evaluation, comes
+first; pictures and sweeps over the whole collection are done in between, shape by shape.
 """
 
 from __future__ import annotations
 
-import json
-import os
-import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
@@ -34,7 +30,7 @@ from shapewright.studio.bench.telling import (
 )
 from shapewright.studio.bench.workshop import Broken, Workshop
 from shapewright.studio.project.listing import Listing, Origin, listing
-from shapewright.studio.wire.frames import write_envelope
+from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.problems import of_failure
 
 _MEMORY = 24 * 2**20
@@ -85,7 +81,7 @@ class Bench:
             self._tell({"type": "broken", "problem": error.problem.record()})
 
     def _tell(self, message: Mapping[str, Any], payload: bytes = b"") -> None:
-        write_envelope(self._answers, {"to": "session", "message": message}, payload)
+        write_frame(self._answers, {"to": "session", "message": message}, payload)
 
     def _references(self, request: Request) -> None:
         self._cache = Path(request["cache"]) if request["cache"] else None
@@ -154,7 +150,7 @@ class Bench:
 
         def answer(message: Mapping[str, Any] | None, payload: bytes = b"") -> None:
             envelope = {"to": "live", "client": request["client"], "message": message}
-            write_envelope(self._answers, envelope, payload)
+            write_frame(self._answers, envelope, payload)
 
         try:
             built = self._workshop.build(request["parameters"])
@@ -206,7 +202,7 @@ class Bench:
                 payload = thumbnail(shape, request["size"], camera)
         except (KeyError, UnreadableError, ValueError, Broken) as error:
             message = {"error": str(error)}
-        write_envelope(self._answers, {"to": "reply", "request": request["request"], "message": message}, payload)
+        write_frame(self._answers, {"to": "reply", "request": request["request"], "message": message}, payload)
 
     def _replica(self, request: Request) -> Shape:
         built = self._workshop.build(request["parameters"]) if self._workshop.open else None
@@ -220,15 +216,14 @@ def _bytes(target: Target) -> int:
 
 
 def main() -> None:
-    """Serve on the process's own streams; what the author's code or a library prints goes to standard error."""
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
+    """Serve on the process's own streams."""
+    requests, answers = own_streams()
     workshop = Workshop()
     inbox = Inbox(workshop.interrupt)
 
     def listen() -> None:
-        for line in sys.stdin.buffer:
-            inbox.put(json.loads(line))
+        while frame := read_frame(requests):
+            inbox.put(frame[0])
         inbox.put({"do": "end"})
 
     threading.Thread(target=listen, daemon=True).start()

@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+import pickle
+import queue
 import sys
 import threading
 from collections.abc import Mapping
 from pathlib import Path
-
-import cloudpickle
+from typing import Any
 
 from shapewright.building.outcomes import Build, Failure, Limits
-from shapewright.building.process import WorkerProcess
-from shapewright.parameters import Value
+from shapewright.building.process import SINGLE_THREADED, crash, no_answer, too_long
+from shapewright.parameters import Parameters, Value
 from shapewright.procedures import ProcedureError
 from shapewright.studio.bench.builder import LOADING_SECONDS
 from shapewright.studio.bench.built import Built, Version
+from shapewright.studio.wire.child import Child, Frame
 from shapewright.studio.wire.problems import Problem, of_error, syntax_problem
 
 _PROGRAM = "shapewright.studio.bench.builder"
+_START_SECONDS = 60.0
+"""Until the process runs, on a machine with much else to do."""
 _PATIENCE = LOADING_SECONDS + 5.0
+_STEP = 0.1
 
 
 class Broken(Exception):
@@ -34,7 +39,8 @@ class Workshop:
 
     def __init__(self) -> None:
         self.interrupt = threading.Event()
-        self._worker: WorkerProcess | None = None
+        self._child: Child | None = None
+        self._answers: queue.SimpleQueue[Frame | None] = queue.SimpleQueue()
         self._path: Path | None = None
         self._limits = Limits()
 
@@ -53,19 +59,18 @@ class Workshop:
             version = self._start(path, limits)
         except ProcedureError as error:
             raise Broken(of_error(error, "time" if error.kind == "time" else "load", path.parent)) from error
-        self._path, self._limits = path, limits
+        self._path = path
         return version
 
     def build(self, values: Mapping[str, Value]) -> Built | None:
         """Build one shape; None when that was interrupted. Raises Broken when the file has become unusable."""
         assert self._path is not None
-        if self._worker is None:
+        if self._child is None:
             try:
                 self._start(self._path, self._limits)
             except ProcedureError as error:
                 raise Broken(of_error(error, "load", self._path.parent)) from error
-        assert self._worker is not None
-        answer: Built | Failure = self._worker.exchange(dict(values), self.interrupt)
+        answer = self._exchange(dict(values))
         if isinstance(answer, Built):
             return answer
         self._stop()
@@ -77,12 +82,43 @@ class Workshop:
         self._path = None
 
     def _start(self, path: Path, limits: Limits) -> Version:
-        payload = bytes(cloudpickle.dumps((str(path), list(sys.path))))
-        self._worker = WorkerProcess(payload, limits, _PROGRAM, _PATIENCE, self.interrupt)
-        version: Version = self._worker.ready
+        self._limits = limits
+        self._answers = queue.SimpleQueue()
+        self._child = Child(_PROGRAM, self._answers.put, own_group=False, environment=SINGLE_THREADED)
+        self._child.send("load", pickle.dumps((str(path), list(sys.path), limits)))
+        version: Version | Failure = self._wait(_START_SECONDS, _PATIENCE) or no_answer(_PATIENCE)
+        if isinstance(version, Failure):
+            self._stop()
+            raise version.error()
         return version
 
+    def _exchange(self, values: Parameters) -> Built | Failure:
+        """What the builder answers, or the failure that ended it; an interrupt ends it too."""
+        assert self._child is not None
+        self._child.send("build", pickle.dumps(values))
+        patience = 1.25 * self._limits.seconds + 0.5
+        return self._wait(patience, patience) or too_long(self._limits)
+
+    def _wait(self, patience: float, again: float) -> Any:
+        """The builder's next answer, or how it ended; None when it takes too long, or when interrupted.
+
+        patience: seconds to wait for the first sign of life. again: seconds after every other one.
+        """
+        assert self._child is not None
+        while patience > 0.0 and not self.interrupt.is_set():
+            try:
+                frame = self._answers.get(timeout=min(_STEP, patience))
+            except queue.Empty:
+                patience -= _STEP
+                continue
+            if frame is None:
+                return crash(self._child.process)
+            if frame[0] == "answer":
+                return pickle.loads(frame[1])
+            patience = again
+        return None
+
     def _stop(self) -> None:
-        if self._worker:
-            self._worker.stop()
-        self._worker = None
+        if self._child:
+            self._child.end()
+        self._child = None

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, BinaryIO
 
 from shapewright.progress import Progress
 from shapewright.studio.jobs.fit_job import collection, fail, streams, tell
 from shapewright.studio.project.listing import Origin
 
 
-def explain(run: Path, origin: Origin, events: TextIO) -> None:
+def explain(run: Path, origin: Origin, events: BinaryIO) -> None:
     """Explain a run and put that into its folder. origin: of the references."""
     from shapewright.feedback.explanation import explain as explain_iteration
     from shapewright.feedback.record import record_of, write

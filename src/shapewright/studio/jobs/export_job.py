@@ -7,7 +7,7 @@ import time
 import zipfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 from urllib.parse import quote
 
 from shapewright.runs.folder import read_record
@@ -21,7 +21,7 @@ _KEPT = 5
 """Exports that are left in the project's scratch folder; older ones are deleted."""
 
 
-def pack(request: Mapping[str, Any], events: TextIO) -> Path:
+def pack(request: Mapping[str, Any], events: BinaryIO) -> Path:
     """Write the ZIP that a request describes; returns its path."""
     folder = Path(request["folder"])
     folder.mkdir(parents=True, exist_ok=True)
@@ -48,7 +48,7 @@ def _names(run: Path | None) -> list[str]:
     return [run.name] if run else []
 
 
-def _replicas(run: Path, format: Format, events: TextIO) -> Iterator[tuple[str, bytes]]:
+def _replicas(run: Path, format: Format, events: BinaryIO) -> Iterator[tuple[str, bytes]]:
     """Names and contents of the replicas' files; each says in its extras which reference it replicates."""
     from shapewright.runs.result import read_replica
     from shapewright.shapes.files import encode
@@ -67,7 +67,7 @@ def _replicas(run: Path, format: Format, events: TextIO) -> Iterator[tuple[str, 
         tell(events, event="progress", stage="replicas", done=done + 1, total=len(entries), remark="")
 
 
-def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, events: TextIO) -> None:
+def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, events: BinaryIO) -> None:
     from shapewright.fitting.samples import write_samples
     from shapewright.procedures import load_procedure
 

@@ -1,4 +1,4 @@
-"""The program of a fit, beside the server: progress, early answers and the finished run, told in lines of JSON."""
+"""The program of a fit, beside the server: progress, early answers and the finished run, told in frames."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ import threading
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TextIO
+from typing import TYPE_CHECKING, Any, BinaryIO, NoReturn
 
 from shapewright.progress import Progress
 from shapewright.studio.project.listing import Origin, listing
+from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.problems import of_error
 
 if TYPE_CHECKING:
@@ -23,36 +24,36 @@ PREDICTIONS = "predictions.json"
 """In a run's folder: what the network said of every reference before the search, and how sure it was."""
 
 
-def streams() -> tuple[dict[str, Any], TextIO]:
-    """The request, and a stream for events; what anything else prints goes to standard error.
+def streams() -> tuple[dict[str, Any], BinaryIO]:
+    """The request, and a stream for events.
 
-    When standard input closes the studio has gone, and so does this program, with all that it started. It gives way to
-    live evaluation.
+    When the stream of requests closes the studio has gone, and so does this program, with all that it started. It gives
+    way to live evaluation.
     """
     if hasattr(os, "nice"):
         os.nice(5)
-    events = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)
-    request: dict[str, Any] = json.loads(sys.stdin.buffer.readline())
+    requests, events = own_streams()
+    frame = read_frame(requests)
+    if frame is None:
+        sys.exit(1)
 
     def watch() -> None:
-        while os.read(0, 1024):
+        while read_frame(requests):
             pass
         if os.name == "posix":
             os.killpg(os.getpgrp(), signal.SIGKILL)
         os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
-    return request, events
+    return frame[0], events
 
 
-def tell(events: TextIO, **event: Any) -> None:
+def tell(events: BinaryIO, **event: Any) -> None:
     """Write one event."""
-    events.write(json.dumps(event, allow_nan=False) + "\n")
-    events.flush()
+    write_frame(events, event)
 
 
-def fail(events: TextIO, error: Exception, kind: str, root: str) -> NoReturn:
+def fail(events: BinaryIO, error: Exception, kind: str, root: str) -> NoReturn:
     """End the program with the problem that an error is. root: folder that the author's file is named relative to."""
     tell(events, event="failed", problem=of_error(error, kind, Path(root)).record())
     sys.exit(1)
@@ -69,7 +70,7 @@ def collection(origin: Origin) -> Collection:
     return replace(whole, references=inside, skipped={**whole.skipped, **listed.skipped})
 
 
-def fit(request: Mapping[str, Any], events: TextIO) -> str:
+def fit(request: Mapping[str, Any], events: BinaryIO) -> str:
     """Fit as the request says and save the run; returns its name."""
     from shapewright.fitting.fit import fit as iterate
     from shapewright.procedures import load_procedure

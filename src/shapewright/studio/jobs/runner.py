@@ -1,13 +1,8 @@
-"""Long work in processes of their own: fits, explanations, exports. Each tells its progress in lines of JSON."""
+"""Long work in processes of their own: fits, explanations, exports. Each reports its progress."""
 
 from __future__ import annotations
 
 import asyncio
-import contextlib
-import json
-import os
-import signal
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -15,36 +10,11 @@ from pathlib import Path
 from typing import Any, Literal
 
 from shapewright.progress import AnswerKind
+from shapewright.studio.wire.child import Child, Frame, on_this_loop
 from shapewright.studio.wire.problems import Problem
 
 Kind = Literal["fit", "explain", "export"]
 State = Literal["idle", "running", "cancelling", "done", "cancelled", "failed"]
-_GRACE = 3.0
-_LINE = 2**25
-
-
-async def spawn(*arguments: str) -> asyncio.subprocess.Process:
-    """Start a Python program that speaks over its standard streams, in a process group of its own."""
-    return await asyncio.create_subprocess_exec(
-        sys.executable,
-        *arguments,
-        stdin=asyncio.subprocess.PIPE,
-        stdout=asyncio.subprocess.PIPE,
-        limit=_LINE,
-        start_new_session=os.name == "posix",
-    )
-
-
-async def end(process: asyncio.subprocess.Process) -> None:
-    """End a process and those it started, however they feel about it."""
-    if process.returncode is not None and os.name != "posix":
-        return
-    with contextlib.suppress(ProcessLookupError, PermissionError):
-        if os.name == "posix":
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()
-    await process.wait()
 
 
 @dataclass(eq=False)
@@ -68,7 +38,7 @@ class Job:
     _started: float = 0.0
     _seconds: float = 0.0
     _stage_started: float = 0.0
-    _process: asyncio.subprocess.Process | None = None
+    _child: Child | None = None
     _task: asyncio.Task[None] | None = None
 
     @property
@@ -82,13 +52,13 @@ class Job:
         found = self.problem.record() if self.problem else None
         return {**{name: getattr(self, name) for name in names}, "seconds": round(seconds, 2), "problem": found}
 
-    def start(self, arguments: list[str], request: dict[str, Any]) -> None:
-        """Run a program with one line of JSON on its standard input; nothing else of this kind may be running."""
+    def start(self, module: str, request: dict[str, Any]) -> None:
+        """Run a program with a request; nothing else of this kind may be running."""
         assert not self.running
         self.state, self.stages, self.curve = "running", [], []
         self.answer = self.problem = self.result = None
         self._started = time.monotonic()
-        self._task = asyncio.create_task(self._run(arguments, request))
+        self._task = asyncio.create_task(self._run(module, request))
         self.changed(self)
 
     async def cancel(self) -> None:
@@ -97,35 +67,33 @@ class Job:
             return
         self.state = "cancelling"
         self.changed(self)
-        if self._process:
-            await end(self._process)
+        if self._child:
+            await asyncio.to_thread(self._child.end)
         await asyncio.wait([self._task])
 
-    async def _run(self, arguments: list[str], request: dict[str, Any]) -> None:
+    async def _run(self, module: str, request: dict[str, Any]) -> None:
         failed: Problem | None = None
         try:
-            self._process = process = await spawn(*arguments)
+            frames: asyncio.Queue[Frame | None] = asyncio.Queue()
+            # Requests stay open: when they close, the program knows that the studio has gone.
+            self._child = child = Child(module, on_this_loop(frames.put_nowait))
             if self.state == "cancelling":
-                await end(process)
-            assert process.stdin and process.stdout
-            with contextlib.suppress(ConnectionError):
-                # The pipe stays open: when it closes, the program knows that the studio has gone.
-                process.stdin.write(json.dumps({**request, "root": str(self.root)}).encode() + b"\n")
-                await process.stdin.drain()
-            async for line in process.stdout:
-                event = _parsed(line)
-                if event.get("event") == "failed":
+                child.end()
+            child.send({**request, "root": str(self.root)})
+            while frame := await frames.get():
+                event = frame[0]
+                if event["event"] == "failed":
                     failed = Problem.from_record(event["problem"])
                 elif self.state == "running":
                     self._take(event)
-            status = await process.wait()
-            await end(process)  # its own workers, where they still run
+            status = await asyncio.to_thread(child.process.wait)
+            await asyncio.to_thread(child.end)  # its own workers, where they still run
             if status != 0 and failed is None:
                 failed = Problem(self.kind, f"it ended with status {status}; the terminal says more")
         except OSError as error:
             failed = Problem(self.kind, f"it could not be started: {error}")
         finally:
-            self._process = None
+            self._child = None
             self._seconds = time.monotonic() - self._started
         if self.state == "cancelling":
             self.state = "cancelled"
@@ -158,12 +126,3 @@ class Job:
         self.stages[-1] |= known | {"seconds": round(now - self._stage_started, 2)}
         if event.get("losses"):
             self.curve.append(event["losses"])
-
-
-def _parsed(line: bytes) -> dict[str, Any]:
-    """An event, or nothing: programs may print other things."""
-    try:
-        event = json.loads(line)
-    except ValueError:
-        return {}
-    return event if isinstance(event, dict) else {}

@@ -186,14 +186,14 @@ class Session:
             "runs": str(self.project.folder / "runs"),
             "previous": str(newest) if newest and (newest / "predictor.pt").is_file() else None,
         }
-        self.jobs["fit"].start(["-m", "shapewright.studio.jobs.fit_job"], request)
+        self.jobs["fit"].start("shapewright.studio.jobs.fit_job", request)
 
     def explain(self) -> None:
         """Explain the run that is shown. Raises Refused."""
         if self.showing.run is None:
             raise Refused("there is no run to explain yet; fit first")
         request = {"run": str(self.showing.run), "origin": vars(self.project.origin)}
-        self._start("explain", ["-m", "shapewright.studio.jobs.explain_job"], request)
+        self._start("explain", "shapewright.studio.jobs.explain_job", request)
 
     def export(self, request: Message) -> None:
         """Pack what the request names. Raises Refused."""
@@ -202,16 +202,16 @@ class Session:
             raise Refused("there is no run to export yet; fit first, or export samples alone")
         place = {"run": str(run) if run else None, "procedure": str(self.project.procedure)}
         folder = self.project.scratch() / "exports"
-        self._start("export", ["-m", "shapewright.studio.jobs.export_job"], {**request, **place, "folder": str(folder)})
+        self._start("export", "shapewright.studio.jobs.export_job", {**request, **place, "folder": str(folder)})
 
     def cancel(self, kind: Kind) -> None:
         """End a job, if it runs."""
         self._spawn(self.jobs[kind].cancel())
 
-    def _start(self, kind: Kind, arguments: list[str], request: Message) -> None:
+    def _start(self, kind: Kind, module: str, request: Message) -> None:
         if self.jobs[kind].running:
             raise Refused(f"{kind} is running already; cancel it first")
-        self.jobs[kind].start(arguments, request)
+        self.jobs[kind].start(module, request)
 
     # What happens on disk
 

@@ -1,11 +1,11 @@
-"""How meshes travel to the page, and messages between the server and its bench."""
+"""Binary messages, in which meshes travel to the page."""
 
 from __future__ import annotations
 
 import json
 import struct
 from collections.abc import Mapping
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,10 +36,3 @@ def parse(message: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
         buffers[name] = np.frombuffer(message, dtype=kinds[kind], count=count, offset=start)
         start += 4 * count
     return header, buffers
-
-
-def write_envelope(stream: BinaryIO, envelope: Mapping[str, Any], payload: bytes = b"") -> None:
-    """A line of JSON, which says how many bytes follow it, and these."""
-    line = json.dumps({**envelope, "size": len(payload)}, allow_nan=False, separators=(",", ":"))
-    stream.write(line.encode() + b"\n" + payload)
-    stream.flush()

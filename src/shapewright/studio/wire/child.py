@@ -1,0 +1,136 @@
+"""A program of the studio in a process of its own: bench, builder and jobs are started, spoken with and ended here.
+
+Both sides exchange frames over the program's standard streams: a message as JSON, and bytes that go with it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import queue
+import signal
+import struct
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Mapping
+from typing import IO, Any, BinaryIO
+
+import msgspec
+import numpy as np
+
+Frame = tuple[Any, bytes]
+"""A message of plain values, and its payload."""
+_LENGTHS = struct.Struct("<II")
+
+
+class Child:
+    """A Python program that runs beside this process.
+
+    module: the module that it runs.
+    heard: called in another thread with every frame that it sends, and with None when it has ended.
+    own_group: whether it leads a process group, with which it is ended.
+    environment: variables that it gets besides those of this process.
+    """
+
+    def __init__(
+        self,
+        module: str,
+        heard: Callable[[Frame | None], object],
+        own_group: bool = True,
+        environment: Mapping[str, str] | None = None,
+    ) -> None:
+        self._leads = own_group and os.name == "posix"
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", module],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env={**os.environ, **(environment or {})},
+            start_new_session=self._leads,
+        )
+        self._outgoing: queue.SimpleQueue[Frame | None] = queue.SimpleQueue()
+        for work in (lambda: self._listen(heard), self._speak):
+            threading.Thread(target=work, daemon=True).start()
+
+    def send(self, message: Any, payload: bytes = b"") -> None:
+        """Send a frame, without waiting until it arrives; it is lost when the program has ended."""
+        self._outgoing.put((message, payload))
+
+    def end(self) -> int:
+        """End the program, and what it started in its group, at once; returns the exit status."""
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            if self._leads:
+                os.killpg(self.process.pid, signal.SIGKILL)
+            else:
+                self.process.kill()
+        self._outgoing.put(None)
+        return self.process.wait()
+
+    def _listen(self, heard: Callable[[Frame | None], object]) -> None:
+        assert self.process.stdout is not None
+        with self.process.stdout as stream:
+            while frame := read_frame(stream):
+                heard(frame)
+        heard(None)
+
+    def _speak(self) -> None:
+        assert self.process.stdin is not None
+        with contextlib.suppress(OSError), self.process.stdin as stream:
+            while frame := self._outgoing.get():
+                write_frame(stream, *frame)
+
+
+def on_this_loop(heard: Callable[[Frame | None], object]) -> Callable[[Frame | None], object]:
+    """Call a function in the event loop that runs now, from any thread."""
+    loop = asyncio.get_running_loop()
+
+    def pass_on(frame: Frame | None) -> None:
+        with contextlib.suppress(RuntimeError):  # the loop has ended
+            loop.call_soon_threadsafe(heard, frame)
+
+    return pass_on
+
+
+def own_streams() -> tuple[BinaryIO, BinaryIO]:
+    """For the program: the streams on which frames come and go.
+
+    What anything else prints goes to standard error, and what it reads is empty.
+    """
+    requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    os.close(nothing)
+    os.dup2(2, 1)
+    return requests, answers
+
+
+def encode(message: Any) -> bytes:
+    """A message as JSON; numbers that are not finite become null."""
+    return msgspec.json.encode(message, enc_hook=_plain)
+
+
+def _plain(value: Any) -> Any:
+    """The Python number of one of numpy's."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{type(value).__name__} has no form in JSON")
+
+
+def write_frame(stream: IO[bytes], message: Any, payload: bytes = b"") -> None:
+    """Write one frame."""
+    text = encode(message)
+    stream.write(_LENGTHS.pack(len(text), len(payload)) + text + payload)
+    stream.flush()
+
+
+def read_frame(stream: IO[bytes]) -> Frame | None:
+    """The next frame; None at the end of the stream, also where that breaks a frame off."""
+    start = stream.read(_LENGTHS.size)
+    if len(start) < _LENGTHS.size:
+        return None
+    text, payload = (stream.read(length) for length in _LENGTHS.unpack(start))
+    try:
+        return msgspec.json.decode(text), payload
+    except msgspec.DecodeError:
+        return None
