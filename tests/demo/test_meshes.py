@@ -5,9 +5,10 @@ import pytest
 
 from shapewright import Collection, Mesh
 from shapewright.demo import flaws
-from shapewright.demo.meshes import BROKEN, FORMATS, write
+from shapewright.demo.meshes import BROKEN, write
 from shapewright.demo.models import tables
 from shapewright.modelling.solids import box, cylinder
+from shapewright.shapes.files import FORMATS
 
 
 @pytest.fixture(scope="module")

@@ -19,12 +19,14 @@ from shapewright.settings import Settings
 
 def new(name: Annotated[Path, typer.Argument(help="The folder to make.")]) -> None:
     """Start a project: a folder with a first procedure and a place for references."""
+    from shapewright.references.readers.formats import MESH_FORMATS
+
     if name.exists():
         raise RunError(f"{name}: exists already; name another folder")
     (name / "references").mkdir(parents=True)
     shutil.copyfile(Path(__file__).with_name("starter.py"), name / "procedure.py")
     out.print(f"made {escape(str(name))}/procedure.py and {escape(str(name))}/references/", highlight=False)
-    out.print("\nPut meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF) into references, then:\n")
+    out.print(f"\nPut meshes ({', '.join(MESH_FORMATS)}) into references, then:\n")
     place = escape(str(name))
     out.print(f"  shapewright studio {place}\n\nor, without a browser:\n", highlight=False)
     out.print(f"  cd {place}\n  shapewright fit procedure.py references", highlight=False)

@@ -11,8 +11,8 @@ import trimesh
 
 from shapewright.demo.flaws import FLAWS, Parts
 from shapewright.demo.models import tables
+from shapewright.shapes.files import FORMATS
 
-FORMATS = ("ply", "obj", "stl", "off", "glb")
 BROKEN = "truncated-on-purpose.ply"
 _UNITS = (1.0, 0.01, 10.0, 1 / 2.54)  # centimetres written as centimetres, metres, millimetres, inches
 
@@ -33,7 +33,7 @@ def write(folder: Path) -> list[Path]:
                 parts = flaw(parts, rng)
         unit, offset = rng.choice(_UNITS), rng.uniform(-200, 200, 3)
         placed = [replace(part, vertices=(part.vertices + offset) * unit) for part in parts]
-        paths.append(folder / f"{name}.{FORMATS[i % len(FORMATS)]}")
+        paths.append(folder / f"{name}.{FORMATS[(i + 1) % len(FORMATS)]}")
         _export(placed, paths[-1])
     whole = paths[0].read_bytes()
     paths.append(folder / BROKEN)

@@ -20,6 +20,8 @@ from shapewright.references.readers.formats import EXTENSIONS, MESHES
 
 Origin: TypeAlias = str | os.PathLike[str]
 _SHAPENET = ("models", "model_normalized.obj")
+MANIFEST = ".csv"
+"""The extension of a table that lists files."""
 _LOOKED_FOR = " ".join(EXTENSIONS)
 _SHOWN = 5
 _TEXTURE = ".png"
@@ -79,14 +81,14 @@ def _expand(path: Path, alone: bool) -> list[_Found]:
     """The files that one origin stands for; a missing or strange file in a list is left for its reader to report."""
     if path.is_dir():
         return [_Found(file) for file in _in_folder(path)]
-    if path.suffix.lower() == ".csv" and path.is_file():
+    if path.suffix.lower() == MANIFEST and path.is_file():
         return _in_manifest(path)
     if not path.exists() and glob.has_magic(str(path)):
         return [_Found(file) for file in _in_pattern(path)]
     if alone and not path.exists():
         raise CollectionError(f"no such file or folder: {path}{_near(path)}")
     if alone and not _is_shape(path):
-        raise CollectionError(f"{path} is not a kind of file that is read; {_LOOKED_FOR} and .csv are")
+        raise CollectionError(f"{path} is not a kind of file that is read; {_LOOKED_FOR} and {MANIFEST} are")
     return [_Found(path)]
 
 

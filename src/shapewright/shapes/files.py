@@ -11,7 +11,7 @@ import json
 import struct
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, get_args
 from xml.sax.saxutils import escape
 
 import numpy as np
@@ -22,6 +22,8 @@ from shapewright.shapes.mesh import Mesh, concatenate
 from shapewright.shapes.shape import Shape
 
 Format: TypeAlias = Literal["glb", "ply", "obj", "stl", "off"]
+FORMATS: tuple[Format, ...] = get_args(Format)
+"""Formats of meshes that are written; each is the extension of its files."""
 Extras: TypeAlias = Mapping[str, Any]
 
 _NAME = "shape"

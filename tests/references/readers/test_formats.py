@@ -2,13 +2,16 @@ import json
 import logging
 import struct
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 
+from shapewright.references import Collection
 from shapewright.references.errors import UnreadableError
-from shapewright.references.readers.formats import EXTENSIONS, read
+from shapewright.references.readers.formats import EXTENSIONS, MESH_FORMATS, read
+from shapewright.shapes.files import FORMATS
 
 # A soup: an open box corner with a doubled face, an inverted one, and a degenerate one.
 VERTICES = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [0, 0, 0.5], [2, 0, 0.5]])
@@ -307,3 +310,11 @@ class TestReasons:
 
     def test_another_kind_of_file(self, tmp_path):
         assert ".obj" in reason(put(tmp_path, "a.fbx", b"x"))
+
+
+def test_every_text_lists_the_formats_that_there_are():
+    root = Path(__file__).resolve().parents[3]
+    assert f"Put meshes ({', '.join(MESH_FORMATS)})" in (root / "studio-page/src/collection/view.tsx").read_text()
+    assert f"{', '.join(MESH_FORMATS[:-1])} and {MESH_FORMATS[-1]}" in Collection.load.__doc__
+    assert f"{json.dumps(FORMATS)}.map" in (root / "studio-page/src/frame/exporting.tsx").read_text()
+    assert set(FORMATS) < {extension[1:] for extension in EXTENSIONS}

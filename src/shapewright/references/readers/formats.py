@@ -19,9 +19,10 @@ from shapewright.references.readers.svg import read_svg
 from shapewright.shapes import Drawing, Floats, Ints, Mesh, Shape
 
 _POLYGONS: dict[str, Callable[[bytes], Polygons]] = {".obj": read_obj, ".off": read_off, ".ply": read_ply}
-_SCENES = (".3mf", ".glb", ".gltf", ".stl")
 _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {".png": read_png, ".svg": read_svg}
-MESHES = (*_POLYGONS, *_SCENES)
+MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF")
+"""Formats of meshes that are read, as people write them. The extension of a file is the name in small letters."""
+MESHES = tuple(f".{name.lower()}" for name in MESH_FORMATS)
 EXTENSIONS = tuple(sorted((*MESHES, *_DRAWINGS)))
 
 # trimesh would read zeros or whole numbers in place of the coordinates.

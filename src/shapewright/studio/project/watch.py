@@ -8,9 +8,11 @@ from pathlib import Path
 
 from watchfiles import Change, awatch
 
+from shapewright.references import EXTENSIONS
+from shapewright.references.sources import MANIFEST
 from shapewright.studio.project.workspace import SCRATCH, Project
 
-_SHAPES = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf", ".3mf", ".svg", ".png", ".csv")
+_SHAPES = (*EXTENSIONS, MANIFEST)
 _STEP, _LONGEST = 30, 300
 
 

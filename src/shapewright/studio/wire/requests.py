@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-FORMATS = ("glb", "ply", "obj", "stl", "off")
+from shapewright.shapes.files import FORMATS
+
 PARTS = ("replicas", "samples", "report", "parameters")
 MOST_SAMPLES = 10_000
 
