@@ -21,7 +21,7 @@ from PIL import Image
 import shapewright as sw
 from shapewright.building import Build, Workers
 from shapewright.demo import drawings
-from shapewright.judging.judge import judge_of
+from shapewright.judging.judge import Judge
 from shapewright.rendering.ink import coverage
 from shapewright.rendering.projection import silhouette
 from shapewright.report import write_report
@@ -95,12 +95,13 @@ def main() -> None:
         refine=arguments.refine,
         workers=arguments.workers,
     )
-    judge = judge_of(references, settings)
+    judge = Judge.of(references, settings)
 
     def score(builds: list[Build], kind: str) -> str:
         of_kind = np.array([name.startswith(kind) for name in references.names])
-        replicated = of_kind & (judge.distances(builds) <= judge.metric.threshold)
-        iou = judge.overlaps(builds)[0][replicated]
+        distances = judge.distances(builds)
+        replicated = of_kind & (distances <= judge.metric.threshold)
+        iou = np.array([each.iou for each in judge.measures(builds, distances)])[replicated]
         return f"{replicated.sum():4d}, {iou.mean() if len(iou) else 0:.3f}, {int((iou >= 0.95).sum()):2d}"
 
     print("of 50 drawings: replicated, mean IoU of these, and how many at 0.95 IoU or more")

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.cluster import AgglomerativeClustering
 
 CUT = 0.4
 
@@ -48,6 +47,8 @@ def clusters(distances: NDArray[np.float64], limit: float) -> NDArray[np.int64]:
     """A number of its cluster for each of N shapes: complete linkage, merged up to ``limit``."""
     if len(distances) < 2:
         return np.zeros(len(distances), dtype=np.int64)
+    from sklearn.cluster import AgglomerativeClustering  # slow to import, and the studio's bench does not need it
+
     linkage = AgglomerativeClustering(
         n_clusters=None,
         metric="precomputed",

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -105,8 +104,10 @@ def _misfits(cases: Sequence[Case], judge: Judge) -> list[Misfit]:
     def study(case: Case) -> Misfit:
         guesses: list[Hypothesis] = []
         if case.row in studied:
-            replica = case.covering.mesh
-            guesses = hypotheses(case.covering_residuals, case.reference, replica, partial(_costs, judge, case.row))
+            replica, cost = case.covering.mesh, judge.targets[case.row].cost
+            guesses = hypotheses(
+                case.covering_residuals, case.reference, replica, lambda meshes: [cost(mesh) for mesh in meshes]
+            )
         return Misfit(
             case.row,
             case.covering.parameters,
@@ -119,11 +120,6 @@ def _misfits(cases: Sequence[Case], judge: Judge) -> list[Misfit]:
         )
 
     return in_threads(study, cases, judge.settings.workers)
-
-
-def _costs(judge: Judge, row: int, meshes: Sequence[Mesh]) -> list[float]:
-    one = replace(judge, settings=replace(judge.settings, workers=1))
-    return one.search_costs([(row, mesh) for mesh in meshes])
 
 
 def _always(space: ParameterSpace, crew: Workers, seed: int) -> list[str]:

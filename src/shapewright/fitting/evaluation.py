@@ -10,7 +10,7 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.fitting.learning import Lesson, learn, limits_of
-from shapewright.judging.judge import judge_of
+from shapewright.judging.judge import Judge
 from shapewright.prediction.inference import Metrics, score
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
@@ -90,7 +90,7 @@ def _refined(
     """The metrics after refinement, on the first ``count`` held-out rows."""
     held_out = lesson.held_out.take(np.arange(min(count, len(lesson.held_out))))
     shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
-    judge = judge_of(shapes, settings)
+    judge = Judge.of(shapes, settings)
     inferred = lesson.predictor.infer(held_out.shapes)
     _, fields = judge.nearest(crew.build(lesson.predictor.decode(inferred)))
     stages.begin("refine", 1)
@@ -103,9 +103,9 @@ def _refined(
         settings.seed,
         goal=judge.goal,
         progress=stages.step,
-        enough=judge.search_enough,
-        parts=judge.search_parts,
-        doubt=judge.search_doubt,
+        enough=judge.enough,
+        parts=judge.parts,
+        doubt=judge.surprise_cost,
     )
     encoded = np.array([procedure.space.encode(values) for values in found], dtype=np.float32)
     answers = [

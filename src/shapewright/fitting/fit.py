@@ -20,8 +20,8 @@ from shapewright.comparison.grouping import Group
 from shapewright.fitting.adaptive import around
 from shapewright.fitting.facing import quarter_turns
 from shapewright.fitting.learning import Lesson, learn, learn_more, limits_of
-from shapewright.judging.judge import Judge, judge_of
-from shapewright.judging.picture_judge import PictureJudge
+from shapewright.judging.judge import Judge
+from shapewright.judging.target import Measures
 from shapewright.parameters import Parameters, ParameterSpace, Scalar, to_record
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.lookup import nearest
@@ -72,7 +72,7 @@ def fit(
             turns = quarter_turns(references, lesson.predictor, crew)
             references = references.turned(turns)
         stages.begin("describe", len(references))
-        judge = judge_of(references, settings, cache)
+        judge = Judge.of(references, settings, cache)
         found = _Found.none(len(references))
         if previous:
             found = _try(crew, judge, [values or procedure.space.defaults for values in known], found)
@@ -83,12 +83,12 @@ def fit(
             vectors = around(procedure.space, centres, lesson.predictor.metrics, settings.round_samples, seed)
             lesson = learn_more(procedure, crew, settings, stages, lesson, vectors)
             found = _replicate(procedure, crew, judge, lesson, settings, stages, found)
-    builds, distances, predictor = [build for build in found.builds if build], found.distances, lesson.predictor
+    builds, predictor = [build for build in found.builds if build], lesson.predictor
     stages.begin("compare", len(references))
-    (iou, surface), depth = judge.overlaps(builds), judge.depths(builds)
-    compatible = judge.compatible(distances, iou, depth)
+    measures = judge.measures(builds, found.distances)
+    compatible = judge.compatible(measures)
     groups = judge.groups(compatible)
-    results = _results(procedure, references, builds, (distances, iou, surface, depth), compatible, groups)
+    results = _results(procedure, references, builds, measures, compatible, groups)
     stages.begin("picture", 1)
     pictures = draw_pictures(results, settings.workers)
     stages.end()
@@ -170,7 +170,7 @@ def _first_answer(references: Collection, stages: Stages, settings: Settings, sa
 def _replicate(
     procedure: Procedure,
     crew: Workers,
-    judge: Judge | PictureJudge,
+    judge: Judge,
     lesson: Lesson,
     settings: Settings,
     stages: Stages,
@@ -201,9 +201,9 @@ def _replicate(
         judge.goal,
         stages.step,
         new=new,
-        enough=judge.search_enough,
-        parts=judge.search_parts,
-        doubt=judge.search_doubt,
+        enough=judge.enough,
+        parts=judge.parts,
+        doubt=judge.surprise_cost,
     )
     vectors = found.parameters(predicted)
     for i, values in zip(rows, refined, strict=True):
@@ -211,7 +211,7 @@ def _replicate(
     return _try(crew, judge, vectors, found)
 
 
-def _try(crew: Workers, judge: Judge | PictureJudge, vectors: Sequence[Parameters], found: _Found) -> _Found:
+def _try(crew: Workers, judge: Judge, vectors: Sequence[Parameters], found: _Found) -> _Found:
     """Build one vector for each reference, and keep it where it is nearer than what was found before."""
     builds = crew.build(vectors)
     distances, fields = judge.nearest(builds)
@@ -225,11 +225,10 @@ def _results(
     procedure: Procedure,
     references: Collection,
     builds: Sequence[Build],
-    measures: Sequence[NDArray[np.float64]],
+    measures: Sequence[Measures],
     compatible: NDArray[np.bool_],
     groups: Sequence[Group],
 ) -> tuple[Result, ...]:
-    """measures: distance, IoU, Chamfer distance and depth difference of each build."""
     group_of = {name: i for i, found in enumerate(groups) for name in found.members}
     return tuple(
         Result(
@@ -239,18 +238,16 @@ def _results(
             active=procedure.space.active(build.parameters),
             at_limit=procedure.space.at_limit(build.parameters) if build.shape else (),
             replica=build.shape,
-            distance=float(distance),
-            iou=float(iou),
-            chamfer=float(surface),
+            distance=its.distance,
+            iou=its.iou,
+            chamfer=its.chamfer,
             compatible=bool(same),
             group=group_of.get(reference.name),
             reference=reference.shape,
-            error=_error(build, distance),
-            depth=float(depth),
+            error=_error(build, its.distance),
+            depth=its.depth,
         )
-        for reference, build, same, distance, iou, surface, depth in zip(
-            references, builds, compatible, *measures, strict=True
-        )
+        for reference, build, its, same in zip(references, builds, measures, compatible, strict=True)
     )
 
 

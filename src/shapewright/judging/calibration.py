@@ -7,8 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.linear_model import LogisticRegression
-from sklearn.model_selection import StratifiedKFold
 
 from shapewright.comparison.light_field import THRESHOLD
 from shapewright.shapes import Floats
@@ -78,6 +76,8 @@ def fit_threshold(distances: Floats, same: NDArray[np.bool_], default: float = T
 
 def fit_metric(table: Floats, same: NDArray[np.bool_]) -> Metric:
     """Logistic regression on standardised measures (N, 3), given back in their own units."""
+    from sklearn.linear_model import LogisticRegression  # slow to import, and a judge does not need it
+
     middle, spread = table.mean(axis=0), np.maximum(table.std(axis=0), 1e-6)
     model = LogisticRegression(class_weight="balanced").fit((table - middle) / spread, same)
     weights = model.coef_[0] / spread
@@ -105,6 +105,8 @@ def _by_metric(table: Floats, same: NDArray[np.bool_], others: Floats) -> NDArra
 
 def _cross_validated(table: Floats, same: NDArray[np.bool_], rule: Rule, seed: int) -> float | None:
     """Share of pairs that a rule fitted to other pairs gets right."""
+    from sklearn.model_selection import StratifiedKFold
+
     folds = min(_FOLDS, int(same.sum()), int((~same).sum()))
     if folds < 2:
         return None

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from shapewright.comparison.grouping import Group
-from shapewright.judging.metric import Metric, light_field
+from shapewright.judging.paper import Metric, light_field
 from shapewright.prediction.predictor import Predictor
 from shapewright.rendering.thumbnails import thumbnails
 from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record

@@ -19,12 +19,9 @@ from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.search.budgets import QUICK, Budget, Round
 from shapewright.search.combinations import likeliest, others, plain, surprise
 from shapewright.search.descent import bounded_step, learn_slope
-from shapewright.shapes import Shape
+from shapewright.search.objective import Measure
 
 Floats = NDArray[np.float64]
-Measure = Callable[[Sequence[tuple[int, Shape]]], Sequence[Floats | None]]
-"""How replicas, each given with the index of its reference, differ from it: vectors (K,) whose sum of absolute values
-is the cost; None where it cannot be told."""
 
 _REACH, _FARTHEST = 0.15, 0.3
 _SPREAD = 0.1

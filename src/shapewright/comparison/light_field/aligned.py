@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.comparison.light_field.coefficients import coefficients, levels, quantise
 from shapewright.comparison.light_field.description import Descriptor
@@ -12,13 +11,12 @@ from shapewright.comparison.light_field.least_cost import WEIGHTS, weighted
 from shapewright.rendering.cameras import THREE_VIEWS, Camera
 from shapewright.rendering.raster import render
 from shapewright.rendering.silhouettes import SIZE, draw, view_axes
-from shapewright.shapes import Mesh
+from shapewright.shapes import Floats, Mesh, Shape
 
 _AXES = [view_axes(views) for views in directions()]
 _DEPTH = 3000.0
 """What depth counts where it differs altogether: little beside the light field, unless that differs little."""
 _DEPTH_VIEWS = (*THREE_VIEWS, Camera(215.0, -25.0))
-Floats = NDArray[np.float64]
 
 
 class AlignedCost:
@@ -41,12 +39,14 @@ class AlignedCost:
         values = self._coefficients(replica.normalised())
         return float(np.abs(weighted(quantise(values), 4) - self._whole).sum()) if values.any() else np.inf
 
-    def residual(self, replica: Mesh) -> Floats | None:
+    def residual(self, replica: Shape) -> Floats | None:
         """(2774,): what a search makes small, the sum of absolute values: weighted differences, before quantisation.
 
         They vary smoothly with the replica's parameters: 470 of the light field, then those of depth. None for a
-        replica that no view shows.
+        drawing, and for a replica that no view shows.
         """
+        if not isinstance(replica, Mesh):
+            return None
         normal = replica.normalised()
         values = self._coefficients(normal)
         if not values.any():

@@ -25,6 +25,7 @@ from shapewright.feedback.surfaces.placement import Overlay, place
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible import Surface
 from shapewright.judging.judge import Judge
+from shapewright.judging.mesh_target import MeshTarget
 from shapewright.parameters import ParameterSpace
 from shapewright.prediction.predictor import Predictor
 from shapewright.progress import Stages
@@ -83,7 +84,8 @@ def _searched(
 def _compared(misfits: Sequence[Case], crew: Workers, judge: Judge) -> list[Case]:
     """The misfits with what differs from the covering replica, and how far they are from all other references."""
     settings = judge.settings
-    alone = isolation(judge.descriptors, settings.align, settings.workers, settings.seed)
+    described = [target.descriptor for target in judge.targets if isinstance(target, MeshTarget)]
+    alone = isolation(described, settings.align, settings.workers, settings.seed)
     unlike = outliers(alone)
     compared = in_threads(lambda case: residuals(case.surface, case.covering.mesh), misfits, settings.workers)
     vectors = [case.covering.parameters for case in misfits]

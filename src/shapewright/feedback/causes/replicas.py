@@ -19,9 +19,9 @@ from shapewright.parameters import Parameters, Scalar
 from shapewright.prediction.lookup import nearest
 from shapewright.rendering.raster import render
 from shapewright.search.budgets import Budget, Round
-from shapewright.search.search import Measure, refine
-from shapewright.shapes import Floats, Mesh, Shape
-from shapewright.threads import in_threads
+from shapewright.search.objective import measure_of
+from shapewright.search.search import refine
+from shapewright.shapes import Mesh
 
 Prediction = Sequence[NDArray[np.float32]]
 
@@ -94,7 +94,7 @@ def covering_replicas(
         crew.procedure.space,
         prediction,
         crew,
-        _gaps(overlays, judge.settings.workers),
+        measure_of(overlays, judge.settings.workers),
         affordable(COVERING, _SHARES[1], len(known), crew),
         judge.settings.seed,
         _starts(known, overlays, crew, judge),
@@ -153,12 +153,3 @@ def _starts(known: Sequence[Replica], overlays: Sequence[Overlay], crew: Workers
         parameters if overlay(mesh) < overlay(replica.mesh) else replica.parameters
         for replica, overlay, (parameters, mesh) in zip(known, overlays, alike, strict=True)
     ]
-
-
-def _gaps(overlays: Sequence[Overlay], threads: int | None) -> Measure:
-    """What a search for covering replicas goes by."""
-
-    def residual(pair: tuple[int, Shape]) -> Floats | None:
-        return overlays[pair[0]].residual(pair[1]) if isinstance(pair[1], Mesh) else None
-
-    return lambda pairs: in_threads(residual, pairs, threads)

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 
 from shapewright.feedback.surfaces.visible import Surface
-from shapewright.shapes import Floats, Mesh, Transform
+from shapewright.shapes import Floats, Mesh, Shape, Transform
 
 FURTHEST = 0.05
 """Distances beyond count as this: what has no counterpart must not pull."""
@@ -80,11 +80,13 @@ class Overlay:
         residual = self.residual(replica)
         return np.inf if residual is None else float(residual.mean()) * FURTHEST / UNIT
 
-    def residual(self, replica: Mesh) -> Floats | None:
+    def residual(self, replica: Shape) -> Floats | None:
         """What the cost is the mean of, (K,): distances of points of both surfaces, UNIT for FURTHEST and beyond.
 
-        None for a replica without area, or one whose extents have next to nothing of the reference's.
+        None for a drawing, a replica without area, or one whose extents have next to nothing of the reference's.
         """
+        if not isinstance(replica, Mesh):
+            return None
         try:
             surface = Surface.roughly(replica.normalised(), 1000)
         except ValueError:

@@ -18,7 +18,8 @@ from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.procedures import Procedure, load_procedure
 from shapewright.search.budgets import Budget, Round
-from shapewright.search.search import Measure, refine
+from shapewright.search.objective import Measure
+from shapewright.search.search import refine
 from shapewright.shapes import Mesh
 
 GLANCE = Budget((Round(2), Round(1), *(Round(1, 2, 4),) * 2))

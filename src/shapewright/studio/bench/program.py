@@ -13,16 +13,20 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from shapewright.building.outcomes import Limits
+from shapewright.judging.judge import target_of
+from shapewright.judging.target import Measures, Target
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.thumbnails import thumbnail
+from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Shape
-from shapewright.studio.bench.appraisal import NOTHING, MeshTarget, Target, target_of
 from shapewright.studio.bench.gallery import Gallery, Shelf, shape_bytes
 from shapewright.studio.bench.inbox import Inbox, Request
+from shapewright.studio.bench.residual_colours import ResidualColours
 from shapewright.studio.bench.sweep import Sweep
 from shapewright.studio.bench.telling import (
     about,
+    distance_message,
     drawing_message,
     mesh_message,
     replica_header,
@@ -43,8 +47,9 @@ class Bench:
         self._answers, self._inbox, self._workshop = answers, inbox, workshop
         self._gallery = Gallery(Listing({}, {}), None)
         self._targets: Shelf[Target] = Shelf(_MEMORY, _bytes)
+        self._colours: ResidualColours | None = None
         self._cache: Path | None = None
-        self._align: Any = "free"
+        self._settings = Settings()
         self._root = Path()
         self._first: list[str] = []
         self._tasks: dict[str, Iterator[None]] = {}
@@ -85,7 +90,7 @@ class Bench:
 
     def _references(self, request: Request) -> None:
         self._cache = Path(request["cache"]) if request["cache"] else None
-        self._align = request["align"]
+        self._settings = Settings(seed=request["seed"], align=request["align"])
         self._targets = Shelf(_MEMORY, _bytes)
         try:
             self._gallery = Gallery(listing(Origin(**request["origin"])), self._cache)
@@ -140,7 +145,7 @@ class Bench:
             return None
 
     def _new_target(self, slug: str) -> Target:
-        return target_of(self._gallery[slug], self._align, self._cache)
+        return target_of(self._gallery[slug].shape, self._settings, self._cache)
 
     def _evaluate(self, request: Request) -> None:
         """Answer in steps; the later ones are left out when something newer waits."""
@@ -175,12 +180,14 @@ class Bench:
             answer(drawing_message(replica, reference, header))
         if request["slug"] is None or self._inbox.outdated:
             return
-        answer({"type": "distance", **case, **(target.measures(replica) if target else NOTHING)})
+        answer(distance_message(target.measures(replica) if target else Measures(), case))
         if not request["residuals"] or self._inbox.outdated:
             return
-        if not isinstance(target, MeshTarget) or not isinstance(replica, Mesh):
+        if target is None or not isinstance(target.shape, Mesh) or not isinstance(replica, Mesh):
             return
-        for side, residual in target.residuals(replica).items():
+        if self._colours is None or self._colours.reference is not target.shape:
+            self._colours = ResidualColours(target.shape)
+        for side, residual in self._colours.of(replica).items():
             answer(None, residual_message(residual, {**case, "shape": side}))
 
     def _fetch(self, request: Request) -> None:

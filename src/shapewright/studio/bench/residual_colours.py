@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +32,28 @@ class Residual:
     distances: Floats
     colours: Floats
     signed: bool
+
+
+class ResidualColours:
+    """The residual colours of replicas against one reference; all meshes are normalised."""
+
+    def __init__(self, reference: Mesh) -> None:
+        self.reference = reference
+
+    @cached_property
+    def _surface(self) -> NearSurface:
+        return NearSurface(self.reference)
+
+    @cached_property
+    def _refined(self) -> Mesh:
+        return refined(self.reference)
+
+    def of(self, replica: Mesh) -> dict[Literal["replica", "reference"], Residual]:
+        """Of the replica against the reference, and of the reference against the replica."""
+        return {
+            "replica": residual(refined(replica), self._surface),
+            "reference": residual(self._refined, NearSurface(replica)),
+        }
 
 
 def residual(mesh: Mesh, other: NearSurface) -> Residual:

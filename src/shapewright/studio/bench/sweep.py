@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from shapewright.judging.target import Target
 from shapewright.parameters import Parameters
-from shapewright.studio.bench.appraisal import Target
 from shapewright.studio.bench.built import Built
 from shapewright.studio.bench.gallery import Shelf, picture, shape_bytes
+from shapewright.studio.bench.telling import plain
 from shapewright.studio.bench.workshop import Workshop
 from shapewright.studio.wire.problems import of_failure
 
@@ -59,8 +60,8 @@ class Sweep:
                 return
             target = self.target(slug)
             if target and again.build.shape is not None:
-                distance = target.distance(again.build.shape.normalised())
-                self._say({"type": "measured", "slug": slug, "distance": distance})
+                distance, _ = target.nearest(again.build.shape.normalised())
+                self._say({"type": "measured", "slug": slug, "distance": plain(distance)})
             yield
         self._say({"type": "swept all", "given_up": False})
 

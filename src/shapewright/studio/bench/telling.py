@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import shapely
 
+from shapewright.judging.target import Measures
 from shapewright.references.collection import Reference
 from shapewright.shapes import Drawing, Mesh
 from shapewright.studio.bench.built import Built
@@ -31,6 +33,17 @@ def about(reference: Reference) -> dict[str, Any]:
             "size": np.abs(reference.orientation.invert(extent) if solid else extent).tolist(),
         },
     }
+
+
+def plain(measure: float) -> float | None:
+    """A measure for JSON, which has no NaN."""
+    return None if math.isnan(measure) else measure
+
+
+def distance_message(measures: Measures, case: dict[str, Any]) -> dict[str, Any]:
+    """The message ``distance``: distance, IoU and Chamfer distance, None where they cannot be measured."""
+    shown = {"distance": measures.distance, "iou": measures.iou, "chamfer": measures.chamfer}
+    return {"type": "distance", **case, **{name: plain(value) for name, value in shown.items()}}
 
 
 def replica_header(built: Built) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from shapewright.building.outcomes import Failure
-from shapewright.judging.metric import Metric, light_field
+from shapewright.judging.paper import Metric, light_field
 from shapewright.parameters import Parameters
 from shapewright.report.page import colour
 from shapewright.settings import Settings

@@ -8,7 +8,7 @@ from collections.abc import Coroutine, Mapping
 from importlib.metadata import version
 from typing import Any
 
-from shapewright.judging.metric import Metric, fidelity, light_field
+from shapewright.judging.paper import Metric, fidelity, light_field
 from shapewright.progress import AnswerKind
 from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import EXPLANATION, RunError
@@ -160,7 +160,9 @@ class Session:
 
     def change_preferences(self, given: Message) -> Message:
         """Raises ValueError for an entry that cannot be."""
-        self.preferences = self.preferences.changed(given)
+        before, self.preferences = self.preferences, self.preferences.changed(given)
+        if self.preferences.settings.seed != before.settings.seed:
+            self._tell_references()
         self.pages.publish("settings", settings=self.preferences.record())
         return self.preferences.record()
 
@@ -263,8 +265,9 @@ class Session:
 
     def _tell_references(self) -> None:
         cache = str(self.showing.cache) if self.showing.cache else None
-        origin, align = vars(self.project.origin), self.preferences.settings.align
-        self.bench.ask({"do": "references", "origin": origin, "cache": cache, "align": align})
+        origin, settings = vars(self.project.origin), self.preferences.settings
+        judged = {"align": settings.align, "seed": settings.seed}
+        self.bench.ask({"do": "references", "origin": origin, "cache": cache, **judged})
         self.bench.ask({"do": "first", "slugs": self._first})
         self.bench.ask({"do": "pictures", "slugs": self.showing.missing})
 

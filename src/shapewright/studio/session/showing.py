@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from shapewright.judging.metric import Metric
+from shapewright.judging.paper import Metric
 from shapewright.parameters import Parameters
 from shapewright.runs.folder import RunError, read_record
 from shapewright.studio.project.listing import Listing, kept_picture, listing

@@ -7,13 +7,18 @@ import shapely
 import shapewright as sw
 from shapewright import Range
 from shapewright.building import Build, Workers
-from shapewright.judging.judge import Judge, judge_of
-from shapewright.judging.picture_judge import SCALES, SMALL, UNIT, PictureJudge
+from shapewright.comparison.blurred import SCALES, SMALL, UNIT, BlurredDifference
+from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
+from shapewright.judging.drawing_target import DrawingTarget
+from shapewright.judging.judge import Judge
+from shapewright.judging.mesh_target import MeshTarget
+from shapewright.judging.target import Measures
 from shapewright.modelling.drawing import box, circle
 from shapewright.modelling.solids import box as block
 from shapewright.rendering.ink import HALF
 from shapewright.search.drawing_budgets import DRAWN, DRAWN_THOROUGH
 from shapewright.search.search import refine
+from shapewright.threads import in_threads
 
 
 def table(leg=0.08, height=0.7):
@@ -27,16 +32,27 @@ REFERENCES = sw.Collection.of({"bench": table(height=0.4), "table": table(), **D
 
 @pytest.fixture(scope="module")
 def judge():
-    return judge_of(REFERENCES, sw.Settings(workers=1))
+    return Judge.of(REFERENCES, sw.Settings(workers=1))
+
+
+def overlaps(judge, made):
+    """IoU and Chamfer distance of one build for each reference."""
+    measures = judge.measures(made, judge.distances(made))
+    return np.array([(each.iou, each.chamfer) for each in measures]).T
+
+
+def compatible(judge, *distances):
+    return judge.compatible([Measures(distance) for distance in distances])
 
 
 def builds(*shapes):
     return [Build({}, shape) for shape in shapes]
 
 
-def test_drawings_have_a_judge_of_their_own():
-    assert isinstance(judge_of(REFERENCES, sw.Settings()), PictureJudge)
-    assert isinstance(judge_of(sw.Collection.of({"a": block(1)}), sw.Settings()), Judge)
+def test_drawings_have_targets_of_their_own(judge):
+    assert all(isinstance(target, DrawingTarget) for target in judge.targets)
+    meshes = Judge.of(sw.Collection.of({"a": block(1)}), sw.Settings())
+    assert isinstance(meshes.targets[0], MeshTarget)
 
 
 def test_distance_is_fidelity_lost(judge):
@@ -48,12 +64,12 @@ def test_distance_is_fidelity_lost(judge):
 def test_residuals_and_overlaps_are_of_areas(judge):
     same, other, mesh = judge.measure([3])([(0, table()), (0, table(0.1)), (0, block(1).mesh())])
     assert mesh is None and not same.any()
-    ends = [(part.start, part.stop) for part in judge.search_parts]
+    ends = [(part.start, part.stop) for part in judge.parts]
     assert [start for start, _ in ends] == [0, *(end for _, end in ends[:-1])] and ends[-1][1] == len(other)
     # Blurs keep the ink; each scale has all of it.
     ink = other.sum() / UNIT / len(SCALES) * (2 * HALF / SMALL) ** 2
     assert ink == pytest.approx(2 * 0.02 * 0.64, rel=0.1)
-    iou, surface = judge.overlaps(builds(table(height=0.4), table(), None, table(0.1)))
+    iou, surface = overlaps(judge, builds(table(height=0.4), table(), None, table(0.1)))
     assert (
         iou[0] == pytest.approx(1)
         and iou[1] < 0.4
@@ -64,16 +80,15 @@ def test_residuals_and_overlaps_are_of_areas(judge):
 
 
 def test_misfits_are_grouped_by_outline(judge):
-    nothing = (np.full(4, np.nan), judge.depths([None] * 4))
-    groups = judge.groups(judge.compatible(np.array([np.nan, 0.99, 0.99, 0.99]), *nothing))
+    groups = judge.groups(compatible(judge, np.nan, 0.99, 0.99, 0.99))
     assert {frozenset(group.members) for group in groups} >= {frozenset(DISCS)}
     assert sorted(name for group in groups for name in group.members) == sorted(REFERENCES.names)
-    assert judge.groups(judge.compatible(np.array([0.1, 0.99, 0.3, 0.2]), *nothing))[0].members == ("disc 0",)
+    assert judge.groups(compatible(judge, 0.1, 0.99, 0.3, 0.2))[0].members == ("disc 0",)
 
 
 def test_what_cannot_be_seen_is_never_replicated():
     thin = sw.Collection.of({"thin": shapely.box(0, 0, 1000, 0.001), "table": table()})
-    judge = judge_of(thin, sw.Settings(workers=1))
+    judge = Judge.of(thin, sw.Settings(workers=1))
     assert np.isnan(judge.distances(builds(shapely_thin(), table()))).all()
     assert judge.groups(np.array([True, False])) == ()
 
@@ -100,14 +115,12 @@ def test_a_search_finds_thin_legs_that_nothing_overlaps_at_first():
         {"height": 0.45, "leg": 0.05, "inset": 0.2, "bar": False},
     ]
     references = sw.Collection.of({str(i): desk(**values) for i, values in enumerate(truth)})
-    judge = judge_of(references, sw.Settings(workers=1))
+    judge = Judge.of(references, sw.Settings(workers=1))
     start = [np.array([0.5, 0.5]), np.array([0.5, 0.5]), np.array([0.5, 0.5]), np.full((2, 2), 0.5)]
     with Workers(desk, 1) as crew:
-        found = crew.build(
-            refine(desk.space, start, crew, judge.measure([0, 1]), DRAWN, seed=1, parts=judge.search_parts)
-        )
+        found = crew.build(refine(desk.space, start, crew, judge.measure([0, 1]), DRAWN, seed=1, parts=judge.parts))
     assert [build.parameters["bar"] for build in found] == [True, False]
-    assert (judge.overlaps(found)[0] > 0.93).all()
+    assert (overlaps(judge, found)[0] > 0.93).all()
     assert DRAWN.evaluations(3) < 250 and DRAWN.within(30, 3).evaluations(3) <= 30
 
 
@@ -119,3 +132,29 @@ def test_whatever_else_is_tried_the_best_comes_back_by_the_finest_scale(budget):
     for start, end in zip(others, [*others[1:], len(budget.rounds)], strict=True):
         assert budget.rounds[start].part < finest and budget.rounds[end - 1].part == finest
     assert budget.simple < budget.rounds[0].combinations
+
+
+def test_a_drawing_measures_what_the_comparisons_measure():
+    reference, replica = table(), table(0.1)
+    target = DrawingTarget(reference, sw.Settings())
+    measures = target.measures(replica)
+    assert measures.distance == max(0.0, 1.0 - visual_information_fidelity(reference, replica))
+    assert measures.iou == intersection_over_union(reference, replica)
+    assert np.isnan([measures.chamfer, measures.depth]).all()
+    assert target.nearest(replica) == (measures.distance, 0) and target.nearest(block(1).mesh())[1] == 0
+    finest = BlurredDifference(reference).residual(replica)[target.parts[-1]]
+    assert target.cost(replica) == np.abs(finest).sum() > target.enough
+    assert target.cost(block(1).mesh()) == np.inf
+
+
+def test_a_drawing_that_cannot_be_seen_has_nothing_to_search_by():
+    target = DrawingTarget(shapely_thin(), sw.Settings())
+    assert not target.visible and target.objective() is None and target.cost(table()) == np.inf
+    assert np.isnan(target.measures(table()).iou)
+
+
+def test_any_thread_may_ask_a_drawing_first():
+    replicas = [table(0.06 + 0.01 * i) for i in range(4)]
+    alone = [DrawingTarget(table(), sw.Settings()).measures(replica).distance for replica in replicas]
+    target = DrawingTarget(table(), sw.Settings())
+    assert in_threads(lambda replica: target.measures(replica).distance, replicas, 4) == alone

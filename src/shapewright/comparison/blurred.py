@@ -1,0 +1,57 @@
+"""Differences of drawings that are blurred at several scales: smooth enough to search with."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+
+from shapewright.comparison.outline import silhouette
+from shapewright.rendering.ink import coverage
+from shapewright.shapes import Drawing, Floats, Shape
+
+SMALL = 64
+"""Pixels along the side of the pictures that are compared."""
+SCALES = ((12.0, 16), (6.0, 8), (3.0, 4), (1.0, 2))
+"""Their blurs, as standard deviations in pixels, and the pixels between the samples that are taken of each."""
+UNIT = 56.0
+"""What a black pixel counts; sets what the search takes as small."""
+_ENDS = np.cumsum([0, *((SMALL // step) ** 2 for _, step in SCALES)]).tolist()
+PARTS = tuple(slice(start, end) for start, end in pairwise(_ENDS))
+"""Of the residuals, one for each of the SCALES."""
+
+
+class BlurredDifference:
+    """How a replica differs from one drawing, as pictures blurred at every one of the SCALES.
+
+    Blurred pictures change evenly while an edge moves by as much as the blur is wide, sharp ones within a pixel.
+    """
+
+    def __init__(self, reference: Drawing) -> None:
+        self._reference = _blurred(reference)
+
+    def residual(self, replica: Shape) -> Floats | None:
+        """(1360,): differences of the pictures' samples; a black pixel counts UNIT. PARTS tells the scales apart.
+
+        None for a mesh, and for a replica so thin that no pixel shows it.
+        """
+        if not isinstance(replica, Drawing) or not silhouette(replica).any():
+            return None
+        return _blurred(replica) - self._reference
+
+
+def _lens(blur: float, step: int) -> Floats:
+    """(SMALL / step, SMALL): takes samples of a row of pixels, blurred; times what a sample stands for along it."""
+    centres = np.arange(SMALL // step)[:, None] * step + (step - 1) / 2.0
+    weights = np.exp(-0.5 * ((np.arange(SMALL) - centres) / blur) ** 2)
+    return np.asarray(weights * (step / (blur * math.sqrt(2.0 * math.pi))))
+
+
+_LENSES = tuple(_lens(*scale) for scale in SCALES)
+
+
+def _blurred(drawing: Drawing) -> Floats:
+    """(K,): a drawing at every one of the SCALES, in units of UNIT for each pixel of the picture."""
+    sharp = coverage(drawing, SMALL) * UNIT
+    return np.concatenate([(lens @ sharp @ lens.T).ravel() for lens in _LENSES])

@@ -1,0 +1,109 @@
+"""A mesh to measure replicas against: light fields, silhouettes, depth and surfaces."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from shapewright.comparison import light_field
+from shapewright.comparison.depths import depth_difference
+from shapewright.comparison.grouping import Group, group
+from shapewright.comparison.leaders import LARGE, group_by_leaders
+from shapewright.comparison.light_field.aligned import AlignedCost, nearest_field
+from shapewright.comparison.overlap import intersection_over_union
+from shapewright.comparison.surfaces import chamfer
+from shapewright.judging import paper
+from shapewright.judging.calibration import is_same
+from shapewright.judging.target import Measures
+from shapewright.settings import Settings
+from shapewright.shapes import Floats, Mesh, Shape
+
+
+class MeshTarget:
+    """One mesh; cache: a folder that keeps descriptors. See ``Target``.
+
+    What takes time is kept by functools.cache, which lets threads make different things at the same time. A
+    cached_property of Python 3.11 holds one lock for all objects of the class.
+    """
+
+    parts = (slice(None),)
+    enough = -np.inf
+    surprise_cost = 5.0  # far less than a difference that can be seen
+
+    def __init__(self, shape: Mesh, settings: Settings, cache: Path | None = None) -> None:
+        self.shape, self._settings = shape, settings
+        self._describe = functools.cache(functools.partial(_descriptor, shape, cache))
+        self._aligned = functools.cache(functools.partial(AlignedCost, shape))
+
+    @property
+    def descriptor(self) -> light_field.Descriptor | None:
+        """None for a mesh so thin that no view shows it."""
+        return self._describe()
+
+    @property
+    def visible(self) -> bool:
+        return self.descriptor is not None
+
+    @property
+    def metric(self) -> paper.Metric:
+        return paper.light_field(self._settings.threshold)
+
+    @property
+    def goal(self) -> float:
+        return self._settings.threshold * light_field.RAW_SCALE
+
+    def objective(self, field: int = 0) -> AlignedCost | None:
+        return self._aligned(field) if self.visible else None
+
+    def cost(self, replica: Shape) -> float:
+        """An upper bound of the raw distance."""
+        objective = self.objective()
+        return objective(replica) if objective and isinstance(replica, Mesh) else np.inf
+
+    def nearest(self, replica: Shape | None) -> tuple[float, int]:
+        own, other = self.descriptor, _descriptor(replica) if isinstance(replica, Mesh) else None
+        if own is None or other is None:
+            return math.nan, 0
+        return light_field.distance(own, other, self._settings.align), nearest_field(own, other)
+
+    def measures(self, replica: Shape | None, distance: float | None = None) -> Measures:
+        distance = self.nearest(replica)[0] if distance is None else distance
+        if math.isnan(distance) or not isinstance(replica, Mesh):
+            return Measures()
+        return Measures(
+            distance,
+            float(intersection_over_union([self.shape], [replica], threads=1)[0]),
+            chamfer(self.shape, replica, seed=self._settings.seed),
+            float(depth_difference([self.shape], [replica], threads=1)[0]),
+        )
+
+    def compatible(self, measures: Measures) -> bool:
+        """By the metric where the settings have one, else by the threshold."""
+        learned = self._settings.metric
+        if learned is None:
+            return measures.distance <= self._settings.threshold
+        return is_same(learned, measures.distance, measures.iou, measures.depth)
+
+    @classmethod
+    def groups(cls, names: Sequence[str], targets: Sequence[MeshTarget], settings: Settings) -> tuple[Group, ...]:
+        described = [descriptor for target in targets if (descriptor := target.descriptor)]
+        if len(names) <= LARGE:
+            apart = light_field.distances(described, align=settings.align, threads=settings.workers)
+            return group(names, apart, settings.cut, settings.cut_absolute)
+
+        def between(some: Sequence[int], others: Sequence[int]) -> Floats:
+            rows, columns = [described[i] for i in some], [described[i] for i in others]
+            return light_field.distances(rows, columns, settings.align, 1)
+
+        return group_by_leaders(names, between, settings.cut, settings.cut_absolute, threads=settings.workers)
+
+
+def _descriptor(mesh: Mesh, cache: Path | None = None) -> light_field.Descriptor | None:
+    try:
+        return light_field.descriptor(mesh, cache=cache)
+    except ValueError:
+        return None

@@ -1,0 +1,84 @@
+"""One reference to measure replicas against: what every kind of shape has to answer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol, Self
+
+from shapewright.comparison.grouping import Group
+from shapewright.judging.paper import Metric
+from shapewright.search.objective import Objective
+from shapewright.settings import Settings
+from shapewright.shapes import Shape
+
+
+@dataclass(frozen=True)
+class Measures:
+    """How a replica differs from its reference; NaN for what cannot be measured.
+
+    distance: by which it is judged: the normalised light-field distance of meshes, 1 - VIF of drawings; 0 is equal.
+    iou: intersection over union, of silhouettes or of areas, 0 to 1.
+    chamfer: Chamfer distance of surfaces, in units of the largest extent; of meshes only.
+    depth: difference of depth pictures, 0 to 1; of meshes only.
+    """
+
+    distance: float = math.nan
+    iou: float = math.nan
+    chamfer: float = math.nan
+    depth: float = math.nan
+
+
+class Target(Protocol):
+    """One reference, and whatever of it takes time to make, made when it is first needed; any thread may ask.
+
+    What does not depend on the reference, such as the goal, is the same for all targets of a judge.
+    """
+
+    @property
+    def shape(self) -> Shape:
+        """The reference."""
+
+    @property
+    def visible(self) -> bool:
+        """Whether a picture shows it; if none does, nothing can replicate it."""
+
+    @property
+    def metric(self) -> Metric:
+        """The distance and its threshold, for a run's record."""
+
+    @property
+    def goal(self) -> float:
+        """The cost of a search up to which a replica is surely compatible; -inf where costs do not tell."""
+
+    @property
+    def enough(self) -> float:
+        """A cost, by the last of the parts, at which a search may end; -inf where there is none."""
+
+    @property
+    def parts(self) -> tuple[slice, ...]:
+        """The parts of a residual that a search goes by, one after the other, coarse to fine."""
+
+    @property
+    def surprise_cost(self) -> float:
+        """What it costs a search to choose something unlikely, times minus the logarithm of the probability."""
+
+    def objective(self, field: int = 0) -> Objective | None:
+        """What a search makes small, in one light field; None where the reference cannot be seen."""
+
+    def cost(self, replica: Shape) -> float:
+        """The cost of a replica to a search, in the pose that it has; inf where the two cannot be compared."""
+
+    def nearest(self, replica: Shape | None) -> tuple[float, int]:
+        """The distance, and the light field in which the two differ least; NaN and 0 where it cannot be measured."""
+
+    def measures(self, replica: Shape | None, distance: float | None = None) -> Measures:
+        """All that can be measured, nothing where the distance cannot. distance: where it is known already."""
+
+    def compatible(self, measures: Measures) -> bool:
+        """Whether a replica with these measures counts as the same."""
+
+    @classmethod
+    def groups(cls, names: Sequence[str], targets: Sequence[Self], settings: Settings) -> tuple[Group, ...]:
+        """Visible references, by likeness to each other."""

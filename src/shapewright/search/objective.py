@@ -1,0 +1,33 @@
+"""What a search makes small: how replicas differ from their references."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+from shapewright.shapes import Floats, Shape
+from shapewright.threads import in_threads
+
+Measure = Callable[[Sequence[tuple[int, Shape]]], Sequence[Floats | None]]
+"""How replicas, each given with the index of its reference, differ from it: vectors (K,) whose sum of absolute values
+is the cost; None where the two cannot be compared."""
+
+
+class Objective(Protocol):
+    """One reference as a search sees it."""
+
+    def residual(self, replica: Shape) -> Floats | None:
+        """(K,): how a replica differs from the reference, the sum of absolute values is the cost.
+
+        None where the two cannot be compared.
+        """
+
+
+def measure_of(objectives: Sequence[Objective | None], threads: int | None = None) -> Measure:
+    """The measure of a search for several references, on several threads; None for one that nothing can replicate."""
+
+    def residual(pair: tuple[int, Shape]) -> Floats | None:
+        objective = objectives[pair[0]]
+        return objective.residual(pair[1]) if objective else None
+
+    return lambda pairs: in_threads(residual, pairs, threads)
