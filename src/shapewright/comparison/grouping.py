@@ -6,14 +6,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-CUT = 0.4
+from shapewright.settings import Settings
+from shapewright.shapes import Floats, Ints
+
+CUT = Settings.cut
+"""Share of the largest distance up to which groups are merged (paper section 4.3)."""
 
 
 @dataclass(frozen=True)
 class Group:
-    """Names of shapes that look alike, and the one nearest to the middle of them; members are sorted nearest first."""
+    """Names of shapes that look alike.
+
+    representative: the member with the least mean distance to the others.
+    members: all of them, the nearest to the others first.
+    """
 
     representative: str
     members: tuple[str, ...]
@@ -22,9 +29,7 @@ class Group:
         return len(self.members)
 
 
-def group(
-    names: Sequence[str], distances: NDArray[np.float64], cut: float = CUT, absolute: bool = False
-) -> tuple[Group, ...]:
+def group(names: Sequence[str], distances: Floats, cut: float = CUT, absolute: bool = False) -> tuple[Group, ...]:
     """Agglomerative clustering with complete linkage (paper section 4.3), the largest group first.
 
     distances: (N, N), symmetric. Groups are merged while no two members are further apart than ``cut`` times the
@@ -43,7 +48,7 @@ def group(
     return tuple(sorted(groups, key=lambda g: (-len(g), g.representative)))
 
 
-def clusters(distances: NDArray[np.float64], limit: float) -> NDArray[np.int64]:
+def clusters(distances: Floats, limit: float) -> Ints:
     """A number of its cluster for each of N shapes: complete linkage, merged up to ``limit``."""
     if len(distances) < 2:
         return np.zeros(len(distances), dtype=np.int64)

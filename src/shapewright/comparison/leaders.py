@@ -1,17 +1,16 @@
-"""Groups of very many shapes that look alike, without the distance of every pair."""
+"""Groups of many shapes that look alike, without the distance of every pair."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.comparison.grouping import CUT, Group, group
+from shapewright.shapes import Floats
 from shapewright.threads import in_threads
 
-Floats = NDArray[np.float64]
-Between = Callable[[Sequence[int], Sequence[int]], NDArray[np.float64]]
+Between = Callable[[Sequence[int], Sequence[int]], Floats]
 """Distances (N, M) of shapes with these numbers to those with the others."""
 
 LARGE = 1000

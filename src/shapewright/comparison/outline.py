@@ -19,17 +19,21 @@ from shapewright.comparison.light_field.regions import ART
 from shapewright.rendering.ink import fill, outlines
 from shapewright.rendering.silhouettes import SIZE
 from shapewright.settings import Align
-from shapewright.shapes import Drawing
+from shapewright.shapes import Drawing, Floats
 
-Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 
+# Orders and repetitions of the 35 moments of the paper, order 0 left out: it is the same for every shape.
 _ORDERS = np.array([(n, m) for n in range(1, 11) for m in range(n % 2, n + 1, 2)])
 
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """zernike: (35,) complex, of orders 1 to 10, moduli at most 1. fourier: (10,), magnitudes 1 to 10 over number 0."""
+    """The coefficients of one drawing.
+
+    zernike: (35,) complex moments of orders 1 to 10, moduli at most 1.
+    fourier: (10,), magnitudes 1 to 10 of the contour, each over magnitude 0.
+    """
 
     zernike: NDArray[np.complex128]
     fourier: Floats
@@ -38,7 +42,7 @@ class Outline:
 def descriptor(drawing: Drawing) -> Outline:
     """The coefficients of a drawing; its position and size do not matter.
 
-    Raises ValueError when the drawing is so thin that no pixel of 1/128 of its largest extent shows it.
+    Raises ValueError for a drawing so thin that no pixel shows it. A pixel is 1/128 of the largest extent.
     """
     image = silhouette(drawing)
     if not image.any():

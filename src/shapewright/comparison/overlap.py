@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import THREE_VIEWS, Camera
 from shapewright.rendering.raster import render
-from shapewright.shapes import Mesh
+from shapewright.shapes import Floats, Mesh
 
 
 def intersection_over_union(
@@ -18,7 +17,7 @@ def intersection_over_union(
     cameras: Sequence[Camera] = THREE_VIEWS,
     size: int = 128,
     threads: int | None = None,
-) -> NDArray[np.float64]:
+) -> Floats:
     """IoU of silhouettes, (N,), the mean over the cameras: first[i] against second[i], each normalised; 0 to 1."""
     a, b = (
         render([mesh.normalised() for mesh in meshes], cameras, size, supersample=1, threads=threads)[:, :, 1] > 0

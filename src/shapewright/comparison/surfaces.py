@@ -12,7 +12,13 @@ from shapewright.shapes import Floats, Ints, Mesh
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Points (N, 3) on a surface, the faces (N,) they lie on, those faces' unit normals (N, 3), and the whole area."""
+    """Points on a surface.
+
+    points: (N, 3).
+    faces: (N,), the index of the face that each lies on.
+    normals: (N, 3), the unit normals of these faces.
+    area: of the whole surface.
+    """
 
     points: Floats
     faces: Ints

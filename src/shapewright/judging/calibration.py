@@ -1,4 +1,4 @@
-"""What an author's marks say: the threshold of the distance, and with enough of them a metric of several measures."""
+"""What an author's marks say: a threshold of the distance, and with enough marks a metric of several measures."""
 
 from __future__ import annotations
 
@@ -13,25 +13,33 @@ from shapewright.shapes import Floats
 
 MEASURES = ("distance", "iou", "depth")
 ENOUGH, OF_EACH = 20, 6
-"""Marks that a metric is learned from at least, and of either kind."""
-_FOLDS = 5
-Metric = tuple[float, float, float, float]
-"""Bias and weights of distance, IoU and depth: a pair is the same where bias + weights . measures is at least 0."""
+"""Marks that a metric is learned from at least, in all and of either kind: five for each of its four numbers."""
+_FOLDS = 5  # of a cross-validation, the usual number
+Weights = tuple[float, float, float, float]
+"""A learned metric: bias and weights of distance, IoU and depth difference.
+
+A pair counts as the same where bias + weights . measures is at least 0.
+"""
+Classifier = Callable[[Floats, NDArray[np.bool_], Floats], NDArray[np.bool_]]
+"""Learns from measures (N, K) and what is the same (N,) which of other measures (M, K) are the same (M,)."""
 
 
 @dataclass(frozen=True)
 class Verdict:
     """What marks say.
 
-    threshold: of the light-field distance. accuracy: share of marks that such a threshold gets right when it is fitted
-    to others (cross-validation), None for fewer than 4 marks or one kind of them. metric: learned from all measures,
-    None where there are too few marks or it is no better than the threshold; metric_accuracy: cross-validated as well.
-    marks: how many there are. default_accuracy: of the default threshold.
+    threshold: of the light-field distance.
+    accuracy: share of marks that a threshold gets right that is fitted to other marks (cross-validation); None where
+        either kind has fewer than 2 marks.
+    metric: learned from all measures; None where there are too few marks, or where it is no better than the threshold.
+    metric_accuracy: share of marks that such a metric gets right, cross-validated as well; None for too few marks.
+    marks: how many there are.
+    default_accuracy: share of marks that the default threshold gets right; None without marks.
     """
 
     threshold: float
     accuracy: float | None
-    metric: Metric | None
+    metric: Weights | None
     metric_accuracy: float | None
     marks: int
     default_accuracy: float | None
@@ -40,15 +48,15 @@ class Verdict:
 def verdict(measures: Sequence[Mapping[str, float]], same: Sequence[bool], seed: int = 0) -> Verdict:
     """Fit a threshold, and a metric where there is enough to learn from.
 
-    measures: of each pair, "distance" and perhaps "iou" and "depth". The threshold is the one nearest to the default
-    of 0.18 among those that get most marks right, so with no marks it is the default. A metric, a logistic regression,
+    measures: of each pair, "distance" and perhaps "iou" and "depth". Of the thresholds that get most marks right, the
+    one nearest to the default is taken: without marks, the default itself. The metric is a logistic regression. It
     needs 20 marks with all measures, 6 of either kind, and a better cross-validated accuracy than the threshold.
     """
-    distances, truth = np.array([each["distance"] for each in measures], dtype=float), np.array(same, dtype=bool)
+    distances, truth = np.array([pair["distance"] for pair in measures], dtype=float), np.array(same, dtype=bool)
     threshold = fit_threshold(distances, truth)
     default = float(((distances <= THRESHOLD) == truth).mean()) if len(truth) else None
     accuracy = _cross_validated(distances[:, None], truth, _by_threshold, seed)
-    whole = [i for i, each in enumerate(measures) if all(name in each for name in MEASURES)]
+    whole = [i for i, pair in enumerate(measures) if all(name in pair for name in MEASURES)]
     table = np.array([[measures[i][name] for name in MEASURES] for i in whole]).reshape(-1, len(MEASURES))
     known = truth[whole]
     metric, metric_accuracy = None, None
@@ -74,7 +82,7 @@ def fit_threshold(distances: Floats, same: NDArray[np.bool_], default: float = T
     return float(best[np.abs(best - default).argmin()])
 
 
-def fit_metric(table: Floats, same: NDArray[np.bool_]) -> Metric:
+def fit_metric(table: Floats, same: NDArray[np.bool_]) -> Weights:
     """Logistic regression on standardised measures (N, 3), given back in their own units."""
     from sklearn.linear_model import LogisticRegression  # slow to import, and a judge does not need it
 
@@ -85,13 +93,10 @@ def fit_metric(table: Floats, same: NDArray[np.bool_]) -> Metric:
     return (bias, *(float(weight) for weight in weights))  # type: ignore[return-value]
 
 
-def is_same(metric: Metric, distance: float, iou: float, depth: float) -> bool:
+def is_same(metric: Weights, distance: float, iou: float, depth: float) -> bool:
     """Whether the metric takes a pair for the same; False where a measure is unknown."""
     bias, *weights = metric
     return bool(bias + float(np.dot(weights, [distance, iou, depth])) >= 0.0)
-
-
-Rule = Callable[[Floats, NDArray[np.bool_], Floats], NDArray[np.bool_]]
 
 
 def _by_threshold(table: Floats, same: NDArray[np.bool_], others: Floats) -> NDArray[np.bool_]:
@@ -103,8 +108,8 @@ def _by_metric(table: Floats, same: NDArray[np.bool_], others: Floats) -> NDArra
     return np.array([is_same(metric, *row) for row in others], dtype=bool)
 
 
-def _cross_validated(table: Floats, same: NDArray[np.bool_], rule: Rule, seed: int) -> float | None:
-    """Share of pairs that a rule fitted to other pairs gets right."""
+def _cross_validated(table: Floats, same: NDArray[np.bool_], classifier: Classifier, seed: int) -> float | None:
+    """Share of pairs that a classifier fitted to other pairs gets right."""
     from sklearn.model_selection import StratifiedKFold
 
     folds = min(_FOLDS, int(same.sum()), int((~same).sum()))
@@ -112,5 +117,5 @@ def _cross_validated(table: Floats, same: NDArray[np.bool_], rule: Rule, seed: i
         return None
     right = np.zeros(len(same), dtype=bool)
     for fitted, held in StratifiedKFold(folds, shuffle=True, random_state=seed).split(table, same):
-        right[held] = rule(table[fitted], same[fitted], table[held]) == same[held]
+        right[held] = classifier(table[fitted], same[fitted], table[held]) == same[held]
     return float(right.mean())

@@ -12,7 +12,7 @@ from shapewright.comparison import outline
 from shapewright.comparison.blurred import PARTS, UNIT, BlurredDifference
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
-from shapewright.judging import paper
+from shapewright.judging.paper import Metric, fidelity_metric
 from shapewright.judging.target import Measures
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Shape
@@ -44,8 +44,8 @@ class DrawingTarget:
         return self.outline is not None
 
     @property
-    def metric(self) -> paper.Metric:
-        return paper.fidelity(self._settings.fidelity)
+    def metric(self) -> Metric:
+        return fidelity_metric(self._settings.fidelity)
 
     def objective(self, field: int = 0) -> BlurredDifference | None:
         """Drawings have one view only; field says nothing."""

@@ -16,8 +16,8 @@ from shapewright.comparison.leaders import LARGE, group_by_leaders
 from shapewright.comparison.light_field.aligned import AlignedCost, nearest_field
 from shapewright.comparison.overlap import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
-from shapewright.judging import paper
 from shapewright.judging.calibration import is_same
+from shapewright.judging.paper import Metric, light_field_metric
 from shapewright.judging.target import Measures
 from shapewright.settings import Settings
 from shapewright.shapes import Floats, Mesh, Shape
@@ -49,8 +49,8 @@ class MeshTarget:
         return self.descriptor is not None
 
     @property
-    def metric(self) -> paper.Metric:
-        return paper.light_field(self._settings.threshold)
+    def metric(self) -> Metric:
+        return light_field_metric(self._settings.threshold)
 
     @property
     def goal(self) -> float:

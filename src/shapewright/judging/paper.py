@@ -1,4 +1,4 @@
-"""What decides whether a reference counts as replicated."""
+"""When a reference counts as replicated, as the paper has it: the distances of meshes and of drawings."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ from dataclasses import dataclass
 class Metric:
     """A distance and its threshold, for a run's record.
 
-    name: of the distance. threshold: the largest one of a compatible reference. far: the distance from which on shapes
-    have nothing in common, for the colours of reports. criterion: when a reference is compatible, in words.
+    name: of the distance.
+    threshold: the largest distance of a compatible reference.
+    far: the distance from which on shapes have nothing in common; the end of the colours in reports.
+    criterion: when a reference is compatible, in words.
     """
 
     name: str
@@ -19,11 +21,11 @@ class Metric:
     criterion: str
 
 
-def light_field(threshold: float) -> Metric:
+def light_field_metric(threshold: float) -> Metric:
     """The light-field distance of meshes (paper section 4.3)."""
     return Metric("light-field distance", threshold, 2.5 * threshold, f"light-field distance at most {threshold:g}")
 
 
-def fidelity(least: float) -> Metric:
+def fidelity_metric(least: float) -> Metric:
     """The visual information fidelity (VIF) of drawings (paper section 6.2), as a distance: 1 - VIF."""
     return Metric("1 - VIF", 1.0 - least, 1.0, f"visual information fidelity at least {least:g}")

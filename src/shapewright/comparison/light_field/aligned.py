@@ -15,16 +15,22 @@ from shapewright.shapes import Floats, Mesh, Shape
 
 _AXES = [view_axes(views) for views in directions()]
 _DEPTH = 3000.0
-"""What depth counts where it differs altogether: little beside the light field, unless that differs little."""
+"""What depth counts where it differs altogether, on the raw scale of distances: compatible shapes are up to 2700 apart.
+
+Little beside a light field that differs, much beside one that does not. docs/benchmarks.md has what depth brings.
+"""
 _DEPTH_VIEWS = (*THREE_VIEWS, Camera(215.0, -25.0))
+"""The fourth looks from behind and below: at undersides and backs, which the others do not see."""
+_DEPTH_SIZE = 24
+"""Pixels along the side of a picture of depth: 24 found more than 16, see docs/benchmarks.md."""
 
 
 class AlignedCost:
     """How a replica differs from one reference in one light field, without trying rotations; and in depth.
 
-    The light field's part is an upper bound of the raw distance, at a tenth of a descriptor's time; for shapes that
-    are aligned the least over the fields is hardly above it. Depth tells what silhouettes cannot, such as the boards in
-    a closed shelf. field: 0 to 9, each sees a shape from ten directions.
+    The light field's part is an upper bound of the raw distance, and takes a tenth of a descriptor's time. For shapes
+    that are aligned, the least over the fields is hardly above the distance. Depth shows what silhouettes cannot, such
+    as the boards in a closed shelf. field: 0 to 9, each sees a shape from ten directions.
     """
 
     def __init__(self, reference: Mesh, field: int = 0) -> None:
@@ -62,7 +68,7 @@ class AlignedCost:
 
 def _depths(normal: Mesh) -> Floats:
     """(2304,): small pictures of a normalised shape's depth, 0 to 1."""
-    pictures = render([normal], _DEPTH_VIEWS, size=24, supersample=3, threads=1)
+    pictures = render([normal], _DEPTH_VIEWS, size=_DEPTH_SIZE, supersample=3, threads=1)
     return pictures[0, :, 1].ravel() / 255.0
 
 

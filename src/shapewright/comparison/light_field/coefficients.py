@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from shapewright.comparison.light_field.contours import FOURIER, contour_coefficients
 from shapewright.comparison.light_field.regions import ART, BASIS, CELLS, region_coefficients
+from shapewright.shapes import Floats
 
 Bytes = NDArray[np.uint8]
-Floats = NDArray[np.float64]
 
 COEFFICIENTS = ART + FOURIER + 2
 
@@ -23,6 +23,7 @@ _ART_LEVELS = (  # of 4 bits: the largest index whose level is below the value
     *(0.038508176, 0.045926586, 0.054490513, 0.064619488, 0.077016351, 0.092998687, 0.115524524, 0.154032694),
 )
 
+# The end of the last level, as wide as the one before: quantise has no need of it, levels has.
 _ART_END = 2.0 * _ART_LEVELS[-1] - _ART_LEVELS[-2]
 
 

@@ -15,11 +15,10 @@ from numba import njit
 from numpy.typing import NDArray
 
 from shapewright.rendering.silhouettes import SIZE
+from shapewright.shapes import Floats, Ints
 
 Bytes = NDArray[np.uint8]
 Pixels = NDArray[np.int32]
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 Box = tuple[int, int, int, int]
 
 FOURIER = 10

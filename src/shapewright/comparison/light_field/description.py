@@ -24,10 +24,15 @@ _AXES = view_axes(directions())
 
 @dataclass(frozen=True, eq=False)
 class Descriptor:
-    """Quantised coefficients of a shape's silhouettes; the axes are light field, view, coefficient. All uint8.
+    """Quantised coefficients of a shape's silhouettes, uint8; the axes are light field, view, coefficient.
 
-    art: (10, 10, 35), 0 to 15 when ``bits`` is 4 and 0 to 255 when it is 8. fourier: (10, 10, 10).
-    circularity, eccentricity: (10, 10). A silhouette of no pixels, such as that of a flat sheet seen edge-on, is all 0.
+    A silhouette of no pixels, such as that of a flat sheet seen edge-on, is all 0.
+
+    art: (10, 10, 35), 0 to 15 when ``bits`` is 4 and 0 to 255 when it is 8.
+    fourier: (10, 10, 10), 0 to 255.
+    circularity: (10, 10), 0 to 255.
+    eccentricity: (10, 10), 0 to 255.
+    bits: of ``art``, 4 or 8.
     """
 
     art: Bytes

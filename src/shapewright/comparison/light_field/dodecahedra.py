@@ -9,11 +9,9 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from shapewright.shapes import Floats, Ints
 
 LIGHT_FIELDS = 10
 VIEWS = 10
@@ -50,7 +48,7 @@ _ROTATIONS = Rotation.from_rotvec(
     ]
 )
 
-_UPRIGHT_TILT = 12.0
+_UPRIGHT_TILT = 12.0  # degrees, see upright_rotations
 _NEIGHBOUR_COSINE = np.sqrt(5.0) / 3.0  # of the angle between a vertex and the three nearest to it
 
 

@@ -17,9 +17,9 @@ from shapewright.comparison.light_field.coefficients import COEFFICIENTS
 from shapewright.comparison.light_field.contours import FOURIER
 from shapewright.comparison.light_field.dodecahedra import LIGHT_FIELDS, VIEWS
 from shapewright.comparison.light_field.regions import ART
+from shapewright.shapes import Ints
 
 Weighted = NDArray[Any]
-Ints = NDArray[np.int64]
 
 _SILHOUETTES = VIEWS * LIGHT_FIELDS
 WEIGHTS = np.repeat([1, 2, 2, 1], [ART, FOURIER, 1, 1])

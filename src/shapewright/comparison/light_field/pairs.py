@@ -18,7 +18,7 @@ from shapewright.comparison.light_field.description import Descriptor, describe
 from shapewright.comparison.light_field.dodecahedra import alignments, upright_rotations
 from shapewright.comparison.light_field.least_cost import Weighted, least_of_all, least_of_some
 from shapewright.settings import Align, Settings
-from shapewright.shapes import Mesh
+from shapewright.shapes import Floats, Mesh
 from shapewright.threads import in_threads
 
 __all__ = [
@@ -97,7 +97,7 @@ def distances(
     others: Sequence[Mesh | Descriptor] | None = None,
     align: Align = "free",
     threads: int | None = None,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Normalised distances (N, M) of N shapes to M others, or to each other: see ``distance``. threads: all cores."""
     return raw_distances(shapes, others, align, threads) / RAW_SCALE
 

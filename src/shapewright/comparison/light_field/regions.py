@@ -12,10 +12,9 @@ from numba import njit
 from numpy.typing import NDArray
 
 from shapewright.rendering.silhouettes import SIZE
+from shapewright.shapes import Floats, Ints
 
 Bytes = NDArray[np.uint8]
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 Runs = NDArray[np.int32]
 
 ART = 35

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from shapewright.building.outcomes import Failure
-from shapewright.judging.paper import Metric, light_field
+from shapewright.judging.paper import Metric, light_field_metric
 from shapewright.parameters import Parameters
 from shapewright.report.page import colour
 from shapewright.settings import Settings
@@ -70,7 +70,7 @@ class Board:
     tiles: dict[str, Tile] = field(default_factory=dict)
     groups: tuple[Record, ...] = ()
     run: str | None = None
-    metric: Metric = field(default_factory=lambda: light_field(Settings.threshold))
+    metric: Metric = field(default_factory=lambda: light_field_metric(Settings.threshold))
     skipped: Mapping[str, str] = field(default_factory=dict)
 
     def record(self) -> dict[str, Any]:
@@ -141,7 +141,7 @@ def lay_out(
         tiles,
         tuple(_groups(record["groups"], slugs)) if record else (),
         folder.name if folder else None,
-        metric_of(record) if record else metric or light_field(Settings.threshold),
+        metric_of(record) if record else metric or light_field_metric(Settings.threshold),
         skipped,
     )
 
@@ -153,7 +153,7 @@ def tint(distance: float | None, metric: Metric) -> str | None:
 
 def metric_of(record: Record) -> Metric:
     """What a run measured by."""
-    return Metric(**record["metric"]) if "metric" in record else light_field(record["threshold"])
+    return Metric(**record["metric"]) if "metric" in record else light_field_metric(record["threshold"])
 
 
 def _filled(tile: Tile, entry: Record, pictures: Pictures, folder: Path) -> Tile:

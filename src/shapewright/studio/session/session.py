@@ -8,7 +8,7 @@ from collections.abc import Coroutine, Mapping
 from importlib.metadata import version
 from typing import Any
 
-from shapewright.judging.paper import Metric, fidelity, light_field
+from shapewright.judging.paper import Metric, fidelity_metric, light_field_metric
 from shapewright.progress import AnswerKind
 from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import EXPLANATION, RunError
@@ -356,7 +356,8 @@ class Session:
     def metric(self) -> Metric:
         """What the next fit measures by."""
         settings = self.preferences.settings
-        return light_field(settings.threshold) if self.showing.listed.dimension == 3 else fidelity(settings.fidelity)
+        solid = self.showing.listed.dimension == 3
+        return light_field_metric(settings.threshold) if solid else fidelity_metric(settings.fidelity)
 
     def _spawn(self, work: Coroutine[Any, Any, Any]) -> None:
         task = asyncio.create_task(work)
