@@ -222,7 +222,7 @@ def main() -> None:
             else:
                 iteration = made(case, procedure, references, truth, settings)
             started = time.perf_counter()
-            explanation = explain(procedure, references, iteration)
+            explanation = explain(iteration, procedure, references, suggest=False)
             seconds = time.perf_counter() - started
             concerned = [
                 each

@@ -41,10 +41,12 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         Judge.of(references, settings, Path(folder))
         few = [result.name for result in iteration.results if not result.compatible][:2]
-        explain(procedure, references, replace(iteration, results=tuple(iteration[name] for name in few)))
+        explain(
+            replace(iteration, results=tuple(iteration[name] for name in few)), procedure, references, suggest=False
+        )
         for name, suggest in (("causes", False), ("causes and suggestions", True)):
             started, spent = time.perf_counter(), cpu_seconds()
-            explanation = explain(procedure, references, iteration, cache=Path(folder), suggest=suggest)
+            explanation = explain(iteration, procedure, references, cache=Path(folder), suggest=suggest)
             seconds, spent = time.perf_counter() - started, cpu_seconds() - spent
             stages = ", ".join(f"{stage} {stage_seconds:.1f}" for stage, stage_seconds in explanation.seconds.items())
             print(f"{name}: {seconds:.1f} s, {spent:.1f} CPU s ({stages})", flush=True)

@@ -39,7 +39,7 @@ def main() -> None:
     )
     for path in arguments.procedures:
         started = time.perf_counter()
-        trials = evaluate(sw.load_procedure(path), [settings], [arguments.seed], refined=arguments.refined)
+        trials = evaluate(sw.load_procedure(path), settings, [arguments.seed], refined=arguments.refined)
         for trial in trials:
             print(f"{path}  network  {trial.seconds:.0f} s   {row(trial.metrics)}", flush=True)
             seconds = time.perf_counter() - started - trial.seconds

@@ -248,7 +248,7 @@ def steps(arguments: argparse.Namespace) -> None:
             cells = ", ".join(f"{count} of {len(refs)}" for count, refs in zip(counts, loaded.values(), strict=True))
             print(f"step {step}: {len(iteration.compatible)} of {len(references)} ({cells})", end="", flush=True)
             last = step == arguments.steps
-            made = () if last else explain(procedure, references, iteration, suggest=True).suggestions
+            made = () if last else explain(iteration, procedure, references).suggestions
             if not made:
                 print()
                 break

@@ -10,20 +10,30 @@ from shapewright.shapes import Drawing, Mesh, Transform
 
 if TYPE_CHECKING:
     from shapewright.comparison import light_field, outline
+    from shapewright.feedback.explanation import explain
+    from shapewright.fitting.evaluation import evaluate
     from shapewright.fitting.fit import fit
     from shapewright.fitting.learning import train
+    from shapewright.fitting.samples import sample
     from shapewright.prediction.predictor import Predictor
     from shapewright.references import Collection, CollectionError, Reference
+    from shapewright.report.page import write_report
+    from shapewright.runs.changes import compare
     from shapewright.runs.iteration import Iteration
 
 # An author's file imports this package in every worker process: what loads torch or numba is loaded when first used.
 _ON_FIRST_USE = {
+    "compare": "shapewright.runs.changes",
+    "evaluate": "shapewright.fitting.evaluation",
+    "explain": "shapewright.feedback.explanation",
     "fit": "shapewright.fitting.fit",
     "light_field": "shapewright.comparison",
     "outline": "shapewright.comparison",
     "Iteration": "shapewright.runs.iteration",
     "Predictor": "shapewright.prediction.predictor",
+    "sample": "shapewright.fitting.samples",
     "train": "shapewright.fitting.learning",
+    "write_report": "shapewright.report.page",
     "Collection": "shapewright.references",
     "CollectionError": "shapewright.references",
     "Reference": "shapewright.references",
@@ -59,10 +69,15 @@ __all__ = [
     "Settings",
     "Transform",
     "When",
+    "compare",
+    "evaluate",
+    "explain",
     "fit",
     "light_field",
     "load_procedure",
     "outline",
     "procedure",
+    "sample",
     "train",
+    "write_report",
 ]

@@ -104,7 +104,7 @@ def explanation(procedure):
     }
     references = sw.Collection.of(shapes)
     settings = sw.Settings(workers=1, threshold=0.12)
-    return explain(procedure, references, iteration_of(procedure, references, found, settings))
+    return explain(iteration_of(procedure, references, found, settings), procedure, references, suggest=False)
 
 
 def chief(explanation, name):
@@ -176,7 +176,7 @@ def test_only_what_no_parameters_solve_is_asked_suggestions_for(procedure, monke
         return (Suggestion("range", "longer", "", "", "", b"", ("tall",)),)
 
     monkeypatch.setattr("shapewright.feedback.explanation.suggestions", suggestions)
-    found = explain(procedure, references, iteration_of(procedure, references, vectors, settings), suggest=True)
+    found = explain(iteration_of(procedure, references, vectors, settings), procedure, references)
     assert asked == ["tall"] and found.suggestions[0].title == "longer"
 
 
@@ -207,4 +207,4 @@ def test_a_collection_that_lacks_a_reference_is_refused(procedure):
     vectors = dict.fromkeys("ab", procedure.space.defaults)
     iteration = iteration_of(procedure, references, vectors, sw.Settings(workers=1))
     with pytest.raises(KeyError, match="no reference 'b'"):
-        explain(procedure, sw.Collection.of({"a": procedure()}), iteration)
+        explain(iteration, procedure, sw.Collection.of({"a": procedure()}))

@@ -54,7 +54,7 @@ def test_variants_are_all_combinations_of_what_is_compared():
 
 def test_refinement_is_measured_on_as_many_held_out_samples_as_asked_for():
     settings = sw.Settings(samples=60, epochs=1, image_size=16, workers=1)
-    (trial,) = evaluate(slab, [settings], refined=4)
+    (trial,) = evaluate(slab, settings, refined=4)
     assert trial.refined["s"]["rows"] == trial.refined["c"]["rows"] == 4 < trial.metrics["s"]["rows"]
     assert trial.refined["s"]["mae"] < trial.metrics["s"]["mae"]
 

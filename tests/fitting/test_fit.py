@@ -10,6 +10,7 @@ import shapewright as sw
 from shapewright import Infeasible, Range
 from shapewright.modelling.solids import box, cylinder
 from shapewright.report import write_report
+from shapewright.runs.folder import RunError
 
 SETTINGS = sw.Settings(seed=1, samples=500, epochs=16, image_size=32, workers=2)
 
@@ -110,6 +111,18 @@ def test_a_run_holds_everything(iteration, tmp_path):
     assert record["seed"] == 1 and record["settings"]["samples"] == 500 and "torch" in record["versions"]
     assert "def stool" in (folder / "procedure.py").read_text()
     assert "001" in (folder / "report.html").read_text()
+
+
+def test_runs_are_reported_compared_and_explained_from_python(iteration, tmp_path):
+    earlier, later = iteration.save(tmp_path / "001"), iteration.save(tmp_path / "002")
+    page = sw.write_report(later, str(earlier))
+    assert page == later / "report.html" and "since run 001" in page.read_text()
+    same = sw.compare(iteration, str(later))
+    assert same == sw.compare(earlier, later) and not (same.gained or same.lost or same.closer or same.further)
+    with pytest.raises(RunError, match=r"made in memory; give them to shapewright.explain\(iteration, procedure, refe"):
+        sw.explain(iteration, stool)
+    with pytest.raises(KeyError, match="bench"):
+        sw.explain(iteration, stool, sw.Collection.of({"ball": box((1, 1, 1))}))
 
 
 @sw.procedure

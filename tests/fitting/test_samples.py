@@ -6,6 +6,7 @@ import json
 import pytest
 import trimesh
 
+import shapewright as sw
 from shapewright import load_procedure
 from shapewright.fitting import samples as sampling
 from shapewright.fitting.samples import Samples, write_samples
@@ -41,6 +42,18 @@ def manifest(folder):
 
 def contents(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_samples_in_memory_are_shapes_with_their_parameters(stool):
+    told = []
+    builds = sw.sample(stool, 12, workers=1, progress=told.append)
+    assert [build.parameters for build in builds] == stool.space.sample(12, seed=0)
+    for build in builds:
+        assert (build.shape is None) == (build.parameters["legs"] == 2) == bool(build.failure)
+    made = [build for build in builds if build.parameters["legs"] == 4]
+    assert made and all((build.shape.vertices == stool(**build.parameters).vertices).all() for build in made)
+    assert (told[-1].stage, told[-1].done, told[-1].total) == ("sample", 12, 12)
+    assert [build.parameters for build in sw.sample(stool, 3, seed=1, workers=1)] == stool.space.sample(3, seed=1)
 
 
 def test_the_manifest_says_what_each_file_is(stool, tmp_path):

@@ -308,7 +308,7 @@ def test_comparison_counts_each_reference_once() -> None:
 
     before = distances(a=0.3, b=0.1, c=0.5, d=0.05, e=0.4, f=None, g=None, h=0.25, gone=0.1)
     after = distances(a=0.1, b=0.2, c=0.45, d=0.09, e=0.41, f=0.3, g=None, h=None, new=0.1)
-    comparison = compare(after, before)
+    comparison = compare(before, after)
     assert comparison.gained == (Move("a", 0.3, 0.1),)
     assert comparison.lost == (Move("b", 0.1, 0.2),)
     assert comparison.closer == (Move("f", None, 0.3), Move("c", 0.5, 0.45))

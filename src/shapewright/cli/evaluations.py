@@ -35,7 +35,7 @@ def evaluate(
     records = []
     for variant in variants(settings, compare):
         with progress_bars() as listen:
-            trials = list(run_trials(author, [variant], range(seeds), listen, refined))
+            trials = run_trials(author, variant, range(seeds), listen, refined)
         seconds = [trial.seconds for trial in trials]
         record = {"cameras": variant.cameras, "views": variant.views, "parameters": summary(trials), "seconds": seconds}
         records.append(record)

@@ -20,7 +20,7 @@ from shapewright.cli.console import (
     progress_bars,
 )
 from shapewright.cli.options import Json, Workers
-from shapewright.runs.folder import RunError, previous_run, read_record
+from shapewright.runs.folder import RunError, previous_run
 from shapewright.runs.marks import marks_path
 from shapewright.storage import cache_folder
 
@@ -51,11 +51,11 @@ def explain(
 
     run = run.absolute()
     iteration = Iteration.load(run)
-    procedure, collection = procedure_of(run, iteration), references_of(run, iteration, references)
+    procedure, collection = procedure_of(run, iteration), references_of(iteration, references)
     try:
         with progress_bars() as listen:
             explanation = explain_iteration(
-                procedure, collection, iteration, listen, cache_folder(), suggestions, workers
+                iteration, procedure, collection, listen, cache_folder(), suggestions, workers
             )
     except KeyboardInterrupt:
         err.print("stopped: the run is as it was")
@@ -109,9 +109,9 @@ def compare(
     json: Json = False,
 ) -> None:
     """Show what changed between two runs: newly compatible, lost, closer, further."""
-    from shapewright.runs.changes import compare as compare_records
+    from shapewright.runs.changes import compare as compare_runs
 
-    comparison = compare_records(read_record(after), read_record(before))
+    comparison = compare_runs(before, after)
     if json:
         print_json(asdict(comparison))
     else:
@@ -141,5 +141,5 @@ def explanation_of(
     from shapewright.feedback.explanation import explain as explain_iteration
     from shapewright.feedback.record import record_of, write_into
 
-    record = record_of(explain_iteration(procedure, references, iteration, progress, cache_folder(), suggest=True))
+    record = record_of(explain_iteration(iteration, procedure, references, progress, cache_folder()))
     return lambda folder: write_into(folder, record)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from shapewright.building import Workers
@@ -17,8 +17,8 @@ from shapewright.judging.judge import Judge
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
+from shapewright.runs.inputs import references_of
 from shapewright.runs.iteration import Iteration
-from shapewright.settings import Settings
 from shapewright.shapes import Mesh
 
 
@@ -40,24 +40,34 @@ class Explanation:
 
 
 def explain(
-    procedure: Procedure,
-    references: Collection,
     iteration: Iteration,
+    procedure: Procedure,
+    references: Collection | None = None,
     progress: Listener | None = None,
     cache: Path | None = None,
-    suggest: bool = False,
+    suggest: bool = True,
     workers: int | None = None,
 ) -> Explanation:
     """Explain every reference of an iteration that has a replica.
 
-    procedure, references: those that the iteration was made with; further references are left alone. cache: a folder
-    that keeps the references' descriptors. suggest: whether to try what to write next, which takes longer. workers:
-    processes and threads, by default as in the iteration's settings. Raises KeyError for a collection that lacks a
-    reference, and ValueError for a collection of drawings.
+    Args:
+        iteration: what ``fit`` returned, or ``Iteration.load``.
+        procedure: the one that the iteration was made with.
+        references: those that it was made with, and perhaps others; by default they are loaded from where they were.
+        progress: called with a Progress a few times a second.
+        cache: a folder that keeps the references' descriptors.
+        suggest: whether to try what to write next, which takes longer.
+        workers: processes and threads; by default as in the iteration's settings.
+
+    Raises:
+        RunError: the references are to be loaded, but were made in memory or are not where they were.
+        KeyError: the collection lacks a reference of the iteration.
+        ValueError: it is a collection of drawings.
     """
+    references = references or references_of(iteration)
     if references.kind is not Mesh:
         raise ValueError("only collections of meshes can be explained so far, not drawings")
-    settings = Settings.from_record({**iteration.settings.record(), **({"workers": workers} if workers else {})})
+    settings = replace(iteration.settings, workers=workers or iteration.settings.workers)
     collection = _collection(references, iteration)
     stages = Stages(progress)
     with Workers(procedure, settings.workers, limits_of(settings)) as crew:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
@@ -40,26 +40,28 @@ class Trial:
 
 def evaluate(
     procedure: Procedure,
-    settings: Sequence[Settings],
-    seeds: Sequence[int] = (0,),
+    settings: Settings | None = None,
+    seeds: Sequence[int] | None = None,
     progress: Listener | None = None,
     refined: int = REFINED,
-) -> Iterator[Trial]:
-    """A trial for each of the settings with each seed, as they end. Raises ProcedureError as ``fit`` does.
+) -> list[Trial]:
+    """A trial for each seed; by default one, with the settings' own seed. Raises ProcedureError as ``fit`` does.
 
     refined: held-out samples that refinement is measured on, at most.
     """
-    for setting in settings:
-        for seed in seeds:
-            chosen = replace(setting, seed=seed)
-            stages = Stages(progress)
-            with Workers(procedure, chosen.workers, limits_of(chosen)) as crew:
-                lesson = learn(procedure, crew, chosen, stages)
-                stages.end()
-                seconds = sum(stages.seconds.values())
-                found = None if chosen.refine == "off" else _refined(procedure, crew, lesson, chosen, stages, refined)
+    settings = settings or Settings()
+    trials = []
+    for seed in [settings.seed] if seeds is None else seeds:
+        chosen = replace(settings, seed=seed)
+        stages = Stages(progress)
+        with Workers(procedure, chosen.workers, limits_of(chosen)) as crew:
+            lesson = learn(procedure, crew, chosen, stages)
             stages.end()
-            yield Trial(chosen, lesson.predictor.metrics, found, seconds)
+            seconds = sum(stages.seconds.values())
+            metrics = None if chosen.refine == "off" else _refined(procedure, crew, lesson, chosen, stages, refined)
+        stages.end()
+        trials.append(Trial(chosen, lesson.predictor.metrics, metrics, seconds))
+    return trials
 
 
 def variants(settings: Settings, compared: Literal["cameras", "views", "both"] | None) -> list[Settings]:

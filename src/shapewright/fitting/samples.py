@@ -1,4 +1,4 @@
-"""Random shapes of a procedure, written as files: thousands of them, in parallel, and resumed where a run was stopped.
+"""Random shapes of a procedure, in memory, or written as files: thousands of them, in parallel, and resumed.
 
 The folder holds one file a shape, ``manifest.csv`` with a row for every parameter vector, and ``samples.json``, which
 says what the samples are of. A file is whole or not there, and the manifest never names one that is not.
@@ -20,6 +20,7 @@ from typing import Any
 from shapewright.building import Build, Workers, cores, describe_failures
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure
+from shapewright.progress import Listener, Stages
 from shapewright.runs.folder import RunError, check_free
 from shapewright.shapes import Drawing
 from shapewright.shapes.files import Format, encode
@@ -40,6 +41,22 @@ class Samples:
     unsound: int
     failed: int
     failures: str
+
+
+def sample(
+    procedure: Procedure, count: int, seed: int = 0, workers: int | None = None, progress: Listener | None = None
+) -> list[Build]:
+    """Shapes at ``count`` random parameter vectors: ``build.parameters``, ``build.shape``.
+
+    ``build.failure`` says why where the shape is None. The same seed gives the same vectors. workers: processes, all
+    cores by default. Raises ProcedureError when the procedure cannot be loaded.
+    """
+    stages = Stages(progress)
+    stages.begin("sample", count)
+    with Workers(procedure, workers) as crew:
+        builds = crew.build(procedure.space.sample(count, seed=seed), stages.step)
+    stages.end()
+    return builds
 
 
 def write_samples(

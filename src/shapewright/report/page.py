@@ -26,7 +26,7 @@ FAR = 2.5
 TINTS = 25
 
 
-def write_report(folder: Path, previous: Path | None = None, explanation: Path | None = None) -> Path:
+def write_report(folder: str | Path, previous: str | Path | None = None, explanation: Path | None = None) -> Path:
     """Write ``folder/report.html`` from ``folder/iteration.json`` and ``folder/thumbnails``; return its path.
 
     previous: the folder of an earlier iteration to compare with. explanation: the folder that holds
@@ -34,6 +34,8 @@ def write_report(folder: Path, previous: Path | None = None, explanation: Path |
     the page, so that the file can be moved or sent; only its links to replicas (GLB) point into the folder. Thumbnails
     that are missing are left blank. Raises RunError for a folder without a record, or with one of another format.
     """
+    folder = Path(folder).expanduser()
+    previous = Path(previous).expanduser() if previous else None
     record = read_record(folder)
     earlier = read_record(previous) if previous else None
     environment = Environment(
@@ -47,7 +49,7 @@ def write_report(folder: Path, previous: Path | None = None, explanation: Path |
     page = environment.get_template("report.html.jinja").render(
         run=folder.resolve().name,
         before=previous.resolve().name if previous else None,
-        comparison=compare(record, earlier) if earlier else None,
+        comparison=compare(earlier, record) if earlier else None,
         previous=earlier,
         **_contents(record, folder, read_explanation(explanation or folder)),
     )

@@ -1,12 +1,19 @@
-"""What changed between the records of two iterations."""
+"""What changed between two iterations."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-Record = Mapping[str, Any]
+from shapewright.runs.folder import read_record
+
+if TYPE_CHECKING:
+    from shapewright.runs.iteration import Iteration
+
+Run: TypeAlias = "Iteration | str | Path | Mapping[str, Any]"
+"""An iteration, the folder of its run, or its record."""
 
 
 @dataclass(frozen=True)
@@ -20,10 +27,15 @@ class Move:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Changes from the previous iteration to this one; every reference is counted once at most.
+    """Changes from an earlier iteration to a later one; every reference is counted once at most.
 
-    gained, lost: became compatible, ceased to be. closer, further: stayed on their side of the threshold, but moved by
-    more than the tolerance. added, removed: names that only this, or only the previous, iteration holds.
+    Attributes:
+        gained: references that became compatible.
+        lost: references that are compatible no more.
+        closer: references that came nearer by more than the tolerance, on the same side of the threshold.
+        further: references that went away by more than the tolerance, on the same side of the threshold.
+        added: names that only the later iteration holds.
+        removed: names that only the earlier iteration holds.
     """
 
     gained: tuple[Move, ...]
@@ -34,22 +46,25 @@ class Comparison:
     removed: tuple[str, ...]
 
 
-def compare(record: Record, previous: Record, tolerance: float = 0.02) -> Comparison:
-    """Match the references of two records by name. Moves are in order of their new distance, names as recorded."""
-    now = {reference["name"]: reference for reference in record["references"]}
-    then = {reference["name"]: reference for reference in previous["references"]}
+def compare(before: Run, after: Run, tolerance: float = 0.02) -> Comparison:
+    """Match the references of two iterations by name. Moves are in order of their new distance, names as recorded.
+
+    before, after: iterations, the folders of their runs, or their records. tolerance: a distance; smaller moves do not
+    count. Raises RunError for a folder without a run.
+    """
+    then, now = ({reference["name"]: reference for reference in _record(run)["references"]} for run in (before, after))
     moves: dict[str, list[Move]] = {"gained": [], "lost": [], "closer": [], "further": []}
     for name in now.keys() & then.keys():
-        before, after = then[name]["distance"], now[name]["distance"]
+        old, new = then[name]["distance"], now[name]["distance"]
         if now[name]["compatible"] != then[name]["compatible"]:
             kind = "gained" if now[name]["compatible"] else "lost"
-        elif _far(after) < _far(before) - tolerance:
+        elif _far(new) < _far(old) - tolerance:
             kind = "closer"
-        elif _far(after) > _far(before) + tolerance:
+        elif _far(new) > _far(old) + tolerance:
             kind = "further"
         else:
             continue
-        moves[kind].append(Move(name, before, after))
+        moves[kind].append(Move(name, old, new))
     ordered = {
         kind: tuple(sorted(some, key=lambda move: (_far(move.after), move.name))) for kind, some in moves.items()
     }
@@ -58,6 +73,12 @@ def compare(record: Record, previous: Record, tolerance: float = 0.02) -> Compar
         added=tuple(name for name in now if name not in then),
         removed=tuple(name for name in then if name not in now),
     )
+
+
+def _record(run: Run) -> Mapping[str, Any]:
+    if isinstance(run, str | Path):
+        return read_record(Path(run).expanduser())
+    return run if isinstance(run, Mapping) else run.record
 
 
 def _far(distance: float | None) -> float:

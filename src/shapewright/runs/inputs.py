@@ -29,26 +29,29 @@ def procedure_of(run: Path, iteration: Iteration) -> Procedure:
         ) from error
 
 
-def references_of(run: Path, iteration: Iteration, moved_to: str | None = None) -> Collection:
-    """The collection that a run was made with. moved_to: where it is now, if it was moved.
+def references_of(iteration: Iteration, moved_to: str | None = None) -> Collection:
+    """The collection that an iteration was made with. moved_to: where it is now, if it was moved.
 
-    Raises RunError when it is not where it was, or lacks references of the run.
+    Raises RunError when it is not where it was, or lacks references of the iteration.
     """
     record = iteration.collection
     origins = [moved_to] if moved_to else record.get("origins") or [str(record["source"])]
-    again = "say where it is now with --references FOLDER"
+    again = "say where it is now: shapewright explain RUN --references FOLDER"
     if not moved_to and record["source"] == "memory":
-        raise RunError(f"{run}: its references were made in memory; {again}, or call shapewright.explain from Python")
+        raise RunError(
+            "the references of this iteration were made in memory; give them to "
+            f"shapewright.explain(iteration, procedure, references), or {again}"
+        )
     try:
         collection = Collection.load(origins, up=record.get("up", "y"), front=record.get("front"))
     except CollectionError as error:
-        raise RunError(f"{run}: its collection cannot be loaded: {error}\nIf it was moved, {again}") from error
+        raise RunError(f"the references cannot be loaded: {error}\nIf they were moved, {again}") from error
     lost = [name for name in iteration.names if name not in collection]
     if lost:
         names = ", ".join(lost[:_SHOWN]) + (", ..." if len(lost) > _SHOWN else "")
         where = ", ".join(origins)
         raise RunError(
-            f"{run}: {len(lost)} of its {len(iteration)} references are not in {where} any more ({names}); "
+            f"{len(lost)} of its {len(iteration)} references are not in {where} any more ({names}); "
             f"put them back, or {again}"
         )
     return collection

@@ -25,7 +25,7 @@ def explain(run: Path, origin: Origin, events: BinaryIO) -> None:
 
     iteration = Iteration.load(run)
     procedure = procedure_of(run, iteration)
-    found = explain_iteration(procedure, collection(origin), iteration, listen, cache_folder(), suggest=True)
+    found = explain_iteration(iteration, procedure, collection(origin), listen, cache_folder())
     write(run, record_of(found), previous_run(run, set(iteration.names)))
 
 

@@ -53,7 +53,7 @@ def source_of(run: Path) -> str:
 def comparison(before: Path, after: Path, slugs: Mapping[str, str], address: Address) -> dict[str, Any]:
     """The page's ``Comparison`` of two runs, but for the summaries. slugs: by name; address: of a picture's file."""
     old, new = read_record(before), read_record(after)
-    found = compare(new, old)
+    found = compare(old, new)
     thens = {entry["name"]: entry for entry in old["references"]}
     nows = {entry["name"]: entry for entry in new["references"]}
 
