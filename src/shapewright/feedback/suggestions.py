@@ -15,7 +15,7 @@ from shapewright.feedback.ideas.hypotheses import Hypothesis, hypotheses
 from shapewright.feedback.ideas.proposal import Misfit
 from shapewright.feedback.ideas.proposals import proposals
 from shapewright.feedback.trials.cards import Example, card
-from shapewright.feedback.trials.selection import Tried, selected
+from shapewright.feedback.trials.selection import Change, selected
 from shapewright.feedback.writing.edit import can_edit, parameter_line, snippet
 from shapewright.judging.judge import Judge
 from shapewright.parameters import ParameterSpace
@@ -87,13 +87,13 @@ def suggestions(
     always = _always(procedure.space, crew, judge.settings.seed)
     ideas = proposals(procedure.source, procedure.name, procedure.space, misfits, always)
     stages.begin("trials", 1)
-    known = [(case.replica.parameters, case.replica.mesh) for case in cases[:_KNOWN]]
+    known = [case.replica for case in cases[:_KNOWN]]
     # A part is only ever proposed for misfits that were studied.
     worthy = [idea for idea in ideas if len(idea.starts) > _FEW * min(len(misfits), _STUDIED)]
     evaluations = max(EVALUATIONS - _FEWER * len(misfits), EVALUATIONS // 4)
-    chosen = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
+    changes = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
     by_row = {case.row: case for case in cases}
-    return tuple(_suggestion(tried, procedure, by_row, judge) for tried in chosen)
+    return tuple(_suggestion(change, procedure, by_row, judge) for change in changes)
 
 
 def _misfits(cases: Sequence[Case], judge: Judge) -> list[Misfit]:
@@ -129,26 +129,26 @@ def _always(space: ParameterSpace, crew: Workers, seed: int) -> list[str]:
     return [name for name in (names[0] if names else ()) if all(name in each for each in names)]
 
 
-def _suggestion(found: Tried, procedure: Procedure, cases: Mapping[int, Case], judge: Judge) -> Suggestion:
+def _suggestion(change: Change, procedure: Procedure, cases: Mapping[int, Case], judge: Judge) -> Suggestion:
     """cases: all, by row."""
-    idea, trial = found.proposal, found.trial
-    rows = sorted(trial.compatible, key=lambda row: trial.distances[row] - cases[row].nearest.distance)
+    idea, outcome = change.proposal, change.outcome
+    rows = sorted(outcome.compatible, key=lambda row: outcome.distance(row) - cases[row].nearest.distance)
     names = judge.references.names
     return Suggestion(
         idea.kind,
         idea.title,
-        _text(found, procedure, len(rows), len(cases)),
-        _snippet(found, procedure),
-        found.source,
-        card([_example(cases[row], trial.replicas[row]) for row in rows[:_PICTURED]]),
+        _text(change, procedure, len(rows), len(cases)),
+        _snippet(change, procedure),
+        change.source,
+        card([_example(cases[row], outcome.replicas[row].mesh) for row in rows[:_PICTURED]]),
         tuple(names[row] for row in sorted(rows)),
         {
-            "tried": len(trial.distances),
+            "tried": len(outcome.counted),
             "compatible": len(rows),
             "lost": 0,
             "before": float(np.mean([cases[row].nearest.distance for row in rows])),
-            "after": float(np.mean([trial.distances[row] for row in rows])),
-            "parameters": {names[row]: trial.parameters[row] for row in rows},
+            "after": float(np.mean([outcome.distance(row) for row in rows])),
+            "parameters": {names[row]: outcome.replicas[row].parameters for row in rows},
         },
     )
 
@@ -159,21 +159,21 @@ def _example(case: Case, after: Mesh) -> Example:
     return Example(case.reference, marked, case.covering.mesh, after)
 
 
-def _text(found: Tried, procedure: Procedure, gain: int, misfits: int) -> str:
+def _text(change: Change, procedure: Procedure, gain: int, misfits: int) -> str:
     would = f"{gain} of {misfits} incompatible references would become compatible"
-    if found.proposal.rule is None:
+    if change.proposal.rule is None:
         changes = []
-        for name, (low, high, _) in found.ranges.items():
+        for name, (low, high, _) in change.ranges.items():
             old: Any = procedure.space[name]
             changes.append(f"{name}: from {old.low:g}..{old.high:g} to {low:.4g}..{high:.4g}")
         return f"{'; '.join(changes)}. {would}, and none is lost."
-    flag = found.proposal.rule.flag
+    flag = change.proposal.rule.flag
     off = f" Without {flag} every shape stays as it was." if flag else " By default every shape stays as it was."
-    return f"{found.proposal.title}: {would}, and none is lost.{off}"
+    return f"{change.proposal.title}: {would}, and none is lost.{off}"
 
 
-def _snippet(found: Tried, procedure: Procedure) -> str:
-    if found.proposal.rule is None:
-        lines = [parameter_line(found.source, procedure.name, name) for name in found.ranges]
+def _snippet(change: Change, procedure: Procedure) -> str:
+    if change.proposal.rule is None:
+        lines = [parameter_line(change.source, procedure.name, name) for name in change.ranges]
         return "\n".join(dict.fromkeys(lines)) + "\n"
-    return snippet(procedure.source, found.source)
+    return snippet(procedure.source, change.source)

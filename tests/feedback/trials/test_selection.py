@@ -4,6 +4,7 @@ import pytest
 
 import shapewright as sw
 from shapewright.building import Workers
+from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.proposal import Misfit, Proposal
 from shapewright.feedback.trials.selection import selected
 from shapewright.feedback.writing.edit import with_range
@@ -50,18 +51,22 @@ def tall(post, heights):
     return misfits, judge
 
 
+def parameters(outcome):
+    return {row: replica.parameters for row, replica in outcome.replicas.items()}
+
+
 def test_what_brings_something_is_shown_with_the_ranges_that_are_needed(post):
     misfits, judge = tall(post, (2.8, 3.2))
     assert all(misfit.before > judge.goal for misfit in misfits)
     ideas = [longer("depth", 0.9, (0, 1)), longer("height", 4.0, (0,))]
-    known = [(misfits[0].parameters, misfits[0].replica)]
+    known = [Replica(0, misfits[0].parameters, misfits[0].replica, 0.2)]
     shown = selected(post, ideas, misfits, judge, known, 400, 3)
     assert [each.proposal.title for each in shown] == ["A wider Range of height"]
     (height,) = shown
-    assert height.trial.compatible == (0, 1) and 2.0 < height.ranges["height"][1] < 4.0
+    assert height.outcome.compatible == (0, 1) and 2.0 < height.ranges["height"][1] < 4.0
     assert height.source == height.proposal.write(height.ranges)
     again = selected(post, ideas, misfits, judge, known, 400, 3)
-    assert again[0].trial.parameters == height.trial.parameters and again[0].source == height.source
+    assert parameters(again[0].outcome) == parameters(height.outcome) and again[0].source == height.source
 
 
 def test_parameters_known_with_longer_ranges_need_no_search(post):
@@ -69,13 +74,13 @@ def test_parameters_known_with_longer_ranges_need_no_search(post):
     (plain,) = misfits
     known = Misfit(0, plain.parameters, plain.replica, (), plain.nearest, judge.goal, {"height": 3.0, "depth": 0.1})
     (shown,) = selected(post, [longer("height", 4.0, (0,))], [known], judge, [], 1, 3)
-    assert shown.trial.parameters[0] == {"height": 3.0, "depth": 0.1} and shown.trial.distances[0] < 0.02
+    assert shown.outcome.replicas[0].parameters == {"height": 3.0, "depth": 0.1} and shown.outcome.distance(0) < 0.02
     assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, [], 1, 3) == []
 
 
 def test_a_change_of_what_was_there_is_not_shown(post):
     misfits, judge = tall(post, (3.0,))
-    known = [({"height": 0.5, "depth": 0.1}, box((0.5, 0.7, 0.1)).mesh())]
+    known = [Replica(0, {"height": 0.5, "depth": 0.1}, box((0.5, 0.7, 0.1)).mesh(), 0.2)]
     assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, known, 400, 3) == []
     assert selected(post, [longer("breadth", 3.0, (0,))], misfits, judge, [], 400, 3) == []
 

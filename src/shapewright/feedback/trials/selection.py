@@ -1,7 +1,7 @@
 """Which proposals are worth showing: all are tried on a few misfits, the most promising on all of them.
 
-A shape that is built as a proposal has it, before any search, mostly says already what a change is worth. Searches go
-to what leads, and to the references that are near.
+Shapes of a proposal that are built before any search mostly say already what a change is worth. Searches go to the
+leading proposals, and to the references that are near.
 """
 
 from __future__ import annotations
@@ -13,38 +13,36 @@ import numpy as np
 
 from shapewright.building import Limits, Workers
 from shapewright.comparison.light_field import RAW_SCALE
+from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.proposal import Misfit, Proposal, Ranges
 from shapewright.feedback.ideas.proposals import narrowed
-from shapewright.feedback.trials.trial import (
+from shapewright.feedback.trials.attempt import (
+    BRIEF,
     ENOUGH,
-    GLANCE,
-    LOOK,
-    PEEK,
-    PROMISING,
-    SEARCH,
+    FEW_SCALARS,
+    LONG,
+    OTHER_CHOICES,
     Start,
-    Trial,
-    begun,
-    changed,
-    mixtures,
-    tried,
-    unchanged,
+    builds_the_same,
+    nearest_starts,
+    outcome_of,
+    outcome_of_starts,
+    with_borrowed_choices,
+    workers_for,
 )
+from shapewright.feedback.trials.outcome import PROMISING, Outcome
 from shapewright.feedback.writing.edit import EditError
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError
 from shapewright.search.budgets import Budget
-from shapewright.shapes import Mesh
 
-Known = Sequence[tuple[Parameters, Mesh]]
-
-_GLANCED = 20  # proposals of which shapes are built, at most
+_BUILT = 20  # proposals of which shapes are built, at most
 _SAMPLED = 12  # misfits that these are built for
-_LEADING, _LED = 8, 4  # proposals that are searched with before one is chosen, and misfits of each
+_LEADING, _SEARCHED = 8, 4  # proposals that are searched with before one is chosen, and misfits of each
 _CONFIRMED = 5  # proposals that are tried on all misfits, at most
 _SHARES = (0.3, 0.35)  # of the evaluations left: for the leading proposals; for each that is tried on all misfits
-_MIXED = 0.15  # of these, for the choices that suit others
+_BORROWED = 0.15  # of these, for the choices that suit others
 _LITTLE = 0.05  # of the most that is promised, that is not worth a trial
 _LEAST = 24  # evaluations that a search is worth beginning with
 _FAR = 3.0  # thresholds: what lies further away is not searched for with longer Ranges, which may change much
@@ -52,23 +50,32 @@ _CLOSE = 0.4  # of the threshold: how near longer Ranges should come, so that th
 
 
 @dataclass(frozen=True, eq=False)
-class Tried:
-    """A proposal, the Ranges that references need, the changed source, and what it gave for them."""
+class Change:
+    """A proposal that is tried.
+
+    Attributes:
+        proposal: what is tried.
+        ranges: those that the references need.
+        source: the changed source, with these Ranges.
+        outcome: what it gives for the references.
+    """
 
     proposal: Proposal
     ranges: Ranges
     source: str
-    trial: Trial
+    outcome: Outcome
 
     @property
     def value(self) -> float:
         """The references that become compatible; a close replica counts half as much again as one at the threshold."""
-        trial = self.trial
-        return sum(1.5 - 0.5 * trial.distances[row] / trial.threshold for row in trial.compatible)
+        outcome = self.outcome
+        return sum(1.5 - 0.5 * outcome.distance(row) / outcome.threshold for row in outcome.compatible)
 
 
 @dataclass(frozen=True, eq=False)
-class _Glanced:
+class _Prospect:
+    """A proposal with starts for some misfits, and how many references it may make compatible."""
+
     proposal: Proposal
     starts: Mapping[int, Start]
     promise: float
@@ -79,53 +86,59 @@ def selected(
     ideas: Sequence[Proposal],
     misfits: Sequence[Misfit],
     judge: Judge,
-    known: Known,
+    known: Sequence[Replica],
     evaluations: int,
     limit: int,
-) -> list[Tried]:
-    """At most so many proposals that make references compatible, the largest gain first, simpler first on a tie.
+) -> list[Change]:
+    """The proposals that make references compatible, the largest gain first, simpler first on a tie.
 
-    ideas: the likeliest first. known: parameters and their shapes, which no change may alter. evaluations: shapes built
-    for searches, about. None only repeats part of what another does.
+    ideas: the likeliest first. known: replicas that no change may alter. evaluations: shapes built for searches, about.
+    limit: of the number of changes. None only repeats part of what another does.
     """
     settings = judge.settings
     with Workers(procedure, settings.workers, Limits(settings.shape_seconds, settings.shape_memory_mb)) as crew:
-        glanced = [each for idea in ideas[:_GLANCED] for each in _glanced(crew, procedure, idea, misfits, judge, known)]
-        leading = sorted(glanced, key=lambda each: -each.promise)
+        prospects = [p for idea in ideas[:_BUILT] for p in _built(crew, procedure, idea, misfits, judge, known)]
+        leading = sorted(prospects, key=lambda prospect: -prospect.promise)
         # What a longer Range brings only a search tells: half of the places are theirs.
-        longer = [each for each in leading if each.proposal.rule is None][: _LEADING // 2]
-        leading = [*longer, *(each for each in leading if each not in longer)]
+        longer = [prospect for prospect in leading if prospect.proposal.rule is None][: _LEADING // 2]
+        leading = [*longer, *(prospect for prospect in leading if prospect not in longer)]
         share = int(_SHARES[0] * evaluations / min(_LEADING, max(len(leading), 1)))
-        leading[:_LEADING] = [_led(crew, procedure, each, misfits, judge, share) for each in leading[:_LEADING]]
-        leading = sorted(leading, key=lambda each: -each.promise)
-        found, left = [], (1.0 - _SHARES[0]) * evaluations
-        for each in leading[:_CONFIRMED]:
-            if each.promise <= _LITTLE * leading[0].promise:
+        leading[:_LEADING] = [
+            _briefly_searched(crew, procedure, prospect, misfits, judge, share) for prospect in leading[:_LEADING]
+        ]
+        leading = sorted(leading, key=lambda prospect: -prospect.promise)
+        changes, left = [], (1.0 - _SHARES[0]) * evaluations
+        for prospect in leading[:_CONFIRMED]:
+            if prospect.promise <= _LITTLE * leading[0].promise:
                 break
-            allowed = int(_SHARES[1] * left)
+            allowed, idea = int(_SHARES[1] * left), prospect.proposal
             left -= allowed
-            trial = _confirmed(crew, procedure, each, misfits, judge, allowed)
-            if trial.compatible:
-                ranges = narrowed(each.proposal, procedure.space, [trial.parameters[row] for row in trial.compatible])
-                found.append(Tried(each.proposal, ranges, "", trial))
-        return _shown(crew, procedure, found, judge, limit)
+            outcome = _outcome_for_all(crew, procedure, prospect, misfits, judge, allowed)
+            if outcome.compatible:
+                values = [outcome.replicas[row].parameters for row in outcome.compatible]
+                changes.append(Change(idea, narrowed(idea, procedure.space, values), "", outcome))
+        return _worth_showing(crew, procedure, changes, judge, limit)
 
 
-def _glanced(
-    crew: Workers, procedure: Procedure, idea: Proposal, misfits: Sequence[Misfit], judge: Judge, known: Known
-) -> Iterator[_Glanced]:
-    """The proposal with shapes built as it is for some misfits, half of them those it is for; nothing if it is of no
-    use."""
+def _built(
+    crew: Workers,
+    procedure: Procedure,
+    idea: Proposal,
+    misfits: Sequence[Misfit],
+    judge: Judge,
+    known: Sequence[Replica],
+) -> Iterator[_Prospect]:
+    """The proposal with shapes built for some misfits, half of them those it is for; nothing if it is of no use."""
     groups = [[m for m in misfits if (m.row in idea.starts) == own] for own in (True, False)]
     some = [m for group in groups for m in _spread(group, _SAMPLED - min(_SAMPLED // 2, len(misfits) - len(group)))]
     try:
-        with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
-            if unchanged(new, known):
+        with workers_for(idea.write(idea.ranges), procedure, judge, crew) as new:
+            if builds_the_same(new, known):
                 pieces = {m.row: m.pieces for m in some}
-                starts = begun(new, {m.row: idea.candidates(m) for m in some}, judge, pieces)
-                stands = Trial.of(starts, judge.settings.threshold).standing(pieces).distances
-                starts = {row: starts[row] for row in stands}
-                yield _Glanced(idea, starts, _promise(idea, misfits, {m.row: _way(m, starts) for m in some}))
+                starts = nearest_starts(new, {m.row: idea.candidates(m) for m in some}, judge, pieces)
+                whole = outcome_of_starts(starts, judge.settings.threshold).whole(pieces)
+                starts = {row: starts[row] for row in whole.counted}
+                yield _Prospect(idea, starts, _promise(idea, misfits, {m.row: _way(m, starts) for m in some}))
     except (EditError, ProcedureError):
         return
 
@@ -148,116 +161,121 @@ def _promise(idea: Proposal, misfits: Sequence[Misfit], ways: Mapping[int, float
     return promise
 
 
-def _led(
-    crew: Workers, procedure: Procedure, glanced: _Glanced, misfits: Sequence[Misfit], judge: Judge, evaluations: int
-) -> _Glanced:
+def _briefly_searched(
+    crew: Workers, procedure: Procedure, prospect: _Prospect, misfits: Sequence[Misfit], judge: Judge, evaluations: int
+) -> _Prospect:
     """The same after a short search for the nearest of the misfits that it is for, which then stand for the others."""
-    idea, starts = glanced.proposal, glanced.starts
+    idea, starts = prospect.proposal, prospect.starts
     ways = {m.row: _way(m, starts) for m in misfits if m.row in starts}
-    budget = GLANCE.within(max(evaluations / _LED, _LEAST), int(procedure.space.scalars.sum()))
+    budget = BRIEF.within(max(evaluations / _SEARCHED, _LEAST), int(procedure.space.scalars.sum()))
     near = sorted((row for row in ways if row in idea.starts and ways[row] < 1.0), key=lambda row: starts[row].cost)
-    near = near[: min(_LED, evaluations // _LEAST)]
+    near = near[: min(_SEARCHED, evaluations // _LEAST)]
     if not near:
-        return glanced
-    with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
+        return prospect
+    with workers_for(idea.write(idea.ranges), procedure, judge, crew) as new:
         begin = {row: starts[row].parameters for row in near}
-        trial = tried(new, begin, judge, budget, judge.settings.seed, sure=idea.flag).where(idea.uses)
+        outcome = outcome_of(new, begin, judge, budget, judge.settings.seed, sure=idea.flag).using(idea.uses)
     better = {
-        row: Start(trial.parameters[row], trial.replicas[row], trial.distances[row] * RAW_SCALE)
-        for row in near
-        if trial.distances.get(row, np.inf) * RAW_SCALE < starts[row].cost
+        row: Start(replica.parameters, replica.mesh, replica.distance * RAW_SCALE)
+        for row, replica in outcome.replicas.items()
+        if outcome.distance(row) * RAW_SCALE < starts[row].cost
     }
     starts = {**starts, **better}
     after = {m.row: _way(m, starts) for m in misfits if m.row in starts}
     lift = float(np.mean([after[row] for row in near]))
     after = {row: way if row in near or row not in idea.starts else max(way, lift) for row, way in after.items()}
-    return replace(glanced, starts=starts, promise=_promise(idea, misfits, after))
+    return replace(prospect, starts=starts, promise=_promise(idea, misfits, after))
 
 
-def _confirmed(
-    crew: Workers, procedure: Procedure, glanced: _Glanced, misfits: Sequence[Misfit], judge: Judge, evaluations: int
-) -> Trial:
-    """What the proposal gives for all misfits: built as it is, with the choices that suit others, and searched for."""
-    idea, pieces = glanced.proposal, {m.row: m.pieces for m in misfits}
-    with changed(idea.write(idea.ranges), procedure, judge, crew) as new:
+def _outcome_for_all(
+    crew: Workers, procedure: Procedure, prospect: _Prospect, misfits: Sequence[Misfit], judge: Judge, evaluations: int
+) -> Outcome:
+    """What the proposal gives for all misfits: before a search, with the choices that suit others, and after one."""
+    idea, pieces = prospect.proposal, {m.row: m.pieces for m in misfits}
+    with workers_for(idea.write(idea.ranges), procedure, judge, crew) as new:
         space, scalars = new.procedure.space, int(new.procedure.space.scalars.sum())
-        rest = {m.row: idea.candidates(m) for m in misfits if m.row not in glanced.starts}
-        starts = {**glanced.starts, **begun(new, rest, judge, pieces)}
-        trial = Trial.of(starts, judge.settings.threshold).standing(pieces)
+        others = {m.row: idea.candidates(m) for m in misfits if m.row not in prospect.starts}
+        starts = {**prospect.starts, **nearest_starts(new, others, judge, pieces)}
+        outcome = outcome_of_starts(starts, judge.settings.threshold).whole(pieces)
         fresh = [name for name in space.names if name not in procedure.space.names]
-        left, held = evaluations, 0
+        left, before = evaluations, 0
         turns: list[tuple[Budget, Sequence[str] | None, float]] = [
-            (PEEK, fresh, 1.0),
-            (SEARCH, None, 1.0),
-            (LOOK, None, 1.0),
+            (FEW_SCALARS, fresh, 1.0),
+            (LONG, None, 1.0),
+            (OTHER_CHOICES, None, 1.0),
         ]
         if idea.rule is None:
-            turns.append((SEARCH, None, _CLOSE))
+            turns.append((LONG, None, _CLOSE))
         for turn, (budget, only, aim) in enumerate(turns):
-            if idea.rule and len(trial.compatible) > held:
-                held = len(trial.compatible)
-                mixed = _afforded(mixtures(space, trial, trial.parameters), int(_MIXED * left))
-                left -= sum(len(several) for several in mixed.values())
-                lent = Trial.of(begun(new, mixed, judge, pieces), trial.threshold)
-                trial = trial.joined(lent.where(idea.uses)).standing(pieces)
-            free = scalars if only is None else len(only)
-            rows = _near(trial, aim, PROMISING if idea.rule else _FAR)[: left // min(budget.evaluations(free), _LEAST)]
+            if idea.rule and len(outcome.compatible) > before:
+                before = len(outcome.compatible)
+                known = {row: replica.parameters for row, replica in outcome.replicas.items()}
+                borrowed = _afforded(with_borrowed_choices(space, outcome, known), int(_BORROWED * left))
+                left -= sum(len(several) for several in borrowed.values())
+                lent = outcome_of_starts(nearest_starts(new, borrowed, judge, pieces), outcome.threshold)
+                outcome = outcome.joined(lent.using(idea.uses)).whole(pieces)
+            free, far = scalars if only is None else len(only), PROMISING if idea.rule else _FAR
+            rows = _worth_a_search(outcome, aim, far)[: left // min(budget.evaluations(free), _LEAST)]
             if rows and free:
                 within = budget.within(left / len(rows), free)
                 left -= len(rows) * within.evaluations(free)
-                begin, seed = {row: trial.parameters[row] for row in rows}, judge.settings.seed + turn
-                found = tried(new, begin, judge, within, seed, ENOUGH * aim, only, idea.flag)
-                trial = trial.joined(found.where(idea.uses)).standing(pieces)
-    return trial
+                begin, seed = {row: outcome.replicas[row].parameters for row in rows}, judge.settings.seed + turn
+                searched = outcome_of(new, begin, judge, within, seed, ENOUGH * aim, only, idea.flag)
+                outcome = outcome.joined(searched.using(idea.uses)).whole(pieces)
+    return outcome
 
 
-def _near(trial: Trial, aim: float, far: float) -> list[int]:
-    """References that are worth a search: those that are not compatible first, the nearest first."""
-    rows = [row for row in trial.distances if aim < trial.distances[row] / trial.threshold <= far]
-    return sorted(rows, key=lambda row: (row in trial.compatible, trial.distances[row]))
+def _worth_a_search(outcome: Outcome, aim: float, far: float) -> list[int]:
+    """Rows of references between two distances, in thresholds: those not compatible first, the nearest first."""
+    rows = [row for row in outcome.counted if aim < outcome.distance(row) / outcome.threshold <= far]
+    return sorted(rows, key=lambda row: (row in outcome.compatible, outcome.distance(row)))
 
 
-def _afforded(mixed: Mapping[int, list[Parameters]], most: int) -> dict[int, list[Parameters]]:
-    """As many candidates of each as there may be in all."""
-    each = max(1, most // max(len(mixed), 1))
-    return {row: several[:each] for row, several in list(mixed.items())[:most]}
+def _afforded(candidates: Mapping[int, list[Parameters]], most: int) -> dict[int, list[Parameters]]:
+    """As many candidates of each reference as there may be in all."""
+    share = max(1, most // max(len(candidates), 1))
+    return {row: several[:share] for row, several in list(candidates.items())[:most]}
 
 
-def _shown(crew: Workers, procedure: Procedure, found: Sequence[Tried], judge: Judge, limit: int) -> list[Tried]:
+def _worth_showing(
+    crew: Workers, procedure: Procedure, changes: Sequence[Change], judge: Judge, limit: int
+) -> list[Change]:
     """Those to show, with the Ranges that their references need, judged with these."""
-    needed = [each for each in found if not any(_simpler(other, each) for other in found)]
-    shown: list[Tried] = []
-    for each in _ordered(needed):
-        if len(shown) < limit and not any(_repeats(each, other) for other in shown):
-            shown += _judged(crew, procedure, each, judge)
+    needed = [change for change in changes if not any(_simpler(other, change) for other in changes)]
+    shown: list[Change] = []
+    for change in _ordered(needed):
+        if len(shown) < limit and not any(_repeats(change, other) for other in shown):
+            shown += _final(crew, procedure, change, judge)
     return _ordered(shown)
 
 
-def _ordered(found: Sequence[Tried]) -> list[Tried]:
-    return sorted(found, key=lambda each: (-each.value, len(each.ranges)))
+def _ordered(changes: Sequence[Change]) -> list[Change]:
+    return sorted(changes, key=lambda change: (-change.value, len(change.ranges)))
 
 
-def _repeats(one: Tried, other: Tried) -> bool:
-    return other.proposal.kind == one.proposal.kind and set(one.trial.compatible) <= set(other.trial.compatible)
+def _repeats(one: Change, other: Change) -> bool:
+    same = other.proposal.kind == one.proposal.kind
+    return same and set(one.outcome.compatible) <= set(other.outcome.compatible)
 
 
-def _simpler(one: Tried, other: Tried) -> bool:
+def _simpler(one: Change, other: Change) -> bool:
     """Whether one makes fewer Ranges longer than the other, for as many references."""
     fewer = bool(one.proposal.ends) and set(one.proposal.ends) < set(other.proposal.ends)
-    return fewer and len(one.trial.compatible) >= len(other.trial.compatible)
+    return fewer and len(one.outcome.compatible) >= len(other.outcome.compatible)
 
 
-def _judged(crew: Workers, procedure: Procedure, found: Tried, judge: Judge) -> Iterator[Tried]:
+def _final(crew: Workers, procedure: Procedure, change: Change, judge: Judge) -> Iterator[Change]:
     """The same with its final source, and what that really gives; nothing if that is nothing."""
-    made = {row: found.trial.parameters[row] for row in found.trial.compatible}
+    idea = change.proposal
+    made = {row: change.outcome.replicas[row].parameters for row in change.outcome.compatible}
     try:
-        source = found.proposal.write(found.ranges)
-        with changed(source, procedure, judge, crew) as new:
-            trial = tried(new, made, judge, None, judge.settings.seed)
-            lost = {row: made[row] for row in made if row not in trial.compatible}
-            again = tried(new, lost, judge, SEARCH, judge.settings.seed, sure=found.proposal.flag)
-            trial = trial.joined(again.where(found.proposal.uses))
+        source = idea.write(change.ranges)
+        with workers_for(source, procedure, judge, crew) as new:
+            outcome = outcome_of(new, made, judge, None, judge.settings.seed)
+            lost = {row: made[row] for row in made if row not in outcome.compatible}
+            again = outcome_of(new, lost, judge, LONG, judge.settings.seed, sure=idea.flag)
+            outcome = outcome.joined(again.using(idea.uses))
     except (EditError, ProcedureError):
         return
-    if trial.compatible:
-        yield replace(found, source=source, trial=trial)
+    if outcome.compatible:
+        yield replace(change, source=source, outcome=outcome)

@@ -1,11 +1,11 @@
-"""Trying a changed procedure: refined on the references that it is for, and measured by the judge."""
+"""A changed procedure put to the test: built and searched on the references that it is for, measured by the judge."""
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from shapewright.building import Limits, Workers
 from shapewright.comparison.light_field import RAW_SCALE
+from shapewright.feedback.case import Replica
 from shapewright.feedback.parts.attachment import separate
+from shapewright.feedback.trials.outcome import Outcome
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.procedures import Procedure, load_procedure
@@ -22,77 +24,40 @@ from shapewright.search.objective import Measure
 from shapewright.search.search import refine
 from shapewright.shapes import Mesh
 
-GLANCE = Budget((Round(2), Round(1), *(Round(1, 2, 4),) * 2))
-PEEK = Budget((Round(1), Round(1), *(Round(1, 2, 2),) * 2))
-LOOK = Budget((Round(6), Round(2), *(Round(1, 2, 6),) * 6), patience=3)
-SEARCH = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9), patience=3)
-PROMISING = 1.7  # thresholds: what a first look leaves further away is not searched for
-ENOUGH = 0.88  # of the threshold: search costs are upper bounds of what is judged
-_SPREAD = 0.1
-_LENDERS = 3
+BRIEF = Budget((Round(2), Round(1), *(Round(1, 2, 4),) * 2))
+"""Tells whether a change is worth more."""
+FEW_SCALARS = Budget((Round(1), Round(1), *(Round(1, 2, 2),) * 2))
+"""For the new parameters alone."""
+LONG = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9), patience=3)
+"""For all scalars, with the choices at the start."""
+OTHER_CHOICES = Budget((Round(6), Round(2), *(Round(1, 2, 6),) * 6), patience=3)
+"""From several combinations of choices. All four were chosen on seed 0 of ``benchmarks/suggestions.py rules``."""
+ENOUGH = 0.88
+"""Of the threshold, where a search ends: its costs are upper bounds of what is judged."""
+_SPREAD = 0.1  # of the first random points, encoded
+_UNLIKE = 0.1  # probability of other choices than those at the start
+_LENDERS = 3  # compatible references with different choices, the nearest of which others borrow from
+_SAME = 1e-6  # relative difference of bounds and areas up to which two shapes are one
 
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """Parameters to begin with, the shape that they make, and its cost: an upper bound of the raw distance."""
+    """Where a search for a reference begins.
+
+    Attributes:
+        parameters: of the changed procedure.
+        mesh: the shape that they make.
+        cost: an upper bound of its raw light field distance.
+    """
 
     parameters: Parameters
     mesh: Mesh
     cost: float
 
 
-@dataclass(frozen=True, eq=False)
-class Trial:
-    """What a changed procedure gave. parameters, replicas, distances: by the index of the reference.
-
-    compatible: indices of those at or below the threshold.
-    """
-
-    parameters: Mapping[int, Parameters]
-    replicas: Mapping[int, Mesh]
-    distances: Mapping[int, float]
-    threshold: float
-
-    @classmethod
-    def of(cls, starts: Mapping[int, Start], threshold: float) -> Trial:
-        """What the parameters gave as they were."""
-        return cls(
-            {row: start.parameters for row, start in starts.items()},
-            {row: start.mesh for row, start in starts.items()},
-            {row: start.cost / RAW_SCALE for row, start in starts.items()},
-            threshold,
-        )
-
-    @property
-    def compatible(self) -> tuple[int, ...]:
-        return tuple(row for row, distance in self.distances.items() if distance <= self.threshold)
-
-    def standing(self, pieces: Mapping[int, int]) -> Trial:
-        """Without the replicas that fall into more pieces than they may: nothing may float."""
-        near = PROMISING * self.threshold  # whether others float does not matter
-        rows = [
-            row for row, away in self.distances.items() if away > near or separate(self.replicas[row]) <= pieces[row]
-        ]
-        return replace(self, distances={row: self.distances[row] for row in rows})
-
-    def where(self, uses: Callable[[Parameters], bool]) -> Trial:
-        """Without what makes no use of the change: a longer search would have found it without."""
-        return replace(self, distances={row: d for row, d in self.distances.items() if uses(self.parameters[row])})
-
-    def joined(self, other: Trial) -> Trial:
-        """The nearer of both for each reference."""
-        rows = [row for row, distance in other.distances.items() if distance < self.distances.get(row, np.inf)]
-        return replace(
-            self,
-            parameters={**self.parameters, **{row: other.parameters[row] for row in rows}},
-            replicas={**self.replicas, **{row: other.replicas[row] for row in rows}},
-            distances={**self.distances, **{row: other.distances[row] for row in rows}},
-        )
-
-
 @contextmanager
-def changed(source: str, procedure: Procedure, judge: Judge, crew: Workers | None = None) -> Iterator[Workers]:
-    """Workers for the procedure of the same name in a changed source, loaded from a folder that is gone afterwards.
+def workers_for(source: str, procedure: Procedure, judge: Judge, crew: Workers | None = None) -> Iterator[Workers]:
+    """Workers for the procedure of the same name in a changed source, loaded from a folder that is removed at the end.
 
     crew: workers that turn to it, by default new ones. Raises ProcedureError when the source does not load.
     """
@@ -109,32 +74,39 @@ def changed(source: str, procedure: Procedure, judge: Judge, crew: Workers | Non
             yield crew
 
 
-def begun(
+def nearest_starts(
     crew: Workers, candidates: Mapping[int, Sequence[Parameters]], judge: Judge, pieces: Mapping[int, int]
 ) -> dict[int, Start]:
-    """The nearest of some candidates for each reference (by index), moved into the Ranges and built as they are.
+    """The nearest of some candidates for each reference (by row), moved into the Ranges and built without a search.
 
-    Where several are given, one that falls into no more pieces than it may. References of which nothing can be built
-    are left out.
+    Of several candidates, the nearest that falls into no more pieces than it may. References of which nothing can be
+    built are left out.
     """
     space = crew.procedure.space
     asked = [(row, space.carry(values)) for row, several in candidates.items() for values in several]
     builds = crew.build([values for _, values in asked])
     pairs = zip(asked, builds, strict=True)
     made = [(row, build.parameters, build.shape) for (row, _), build in pairs if isinstance(build.shape, Mesh)]
+    costs = judge.search_costs([(row, mesh) for row, _, mesh in made])
     several: dict[int, list[Start]] = {}
-    for cost, (row, values, mesh) in zip(judge.search_costs([(row, m) for row, _, m in made]), made, strict=True):
+    for cost, (row, values, mesh) in zip(costs, made, strict=True):
         if np.isfinite(cost):
             several.setdefault(row, []).append(Start(values, mesh, cost))
     starts: dict[int, Start] = {}
     for row, choices in several.items():
         choices.sort(key=lambda start: start.cost)
-        standing = (start for start in choices if separate(start.mesh) <= pieces[row]) if len(choices) > 1 else ()
-        starts[row] = next(iter(standing), choices[0])
+        whole = (start for start in choices if separate(start.mesh) <= pieces[row]) if len(choices) > 1 else ()
+        starts[row] = next(iter(whole), choices[0])
     return starts
 
 
-def tried(
+def outcome_of_starts(starts: Mapping[int, Start], threshold: float) -> Outcome:
+    """What the starts, by row, give without a search."""
+    replicas = [Replica(row, start.parameters, start.mesh, start.cost / RAW_SCALE) for row, start in starts.items()]
+    return Outcome.of(replicas, threshold)
+
+
+def outcome_of(
     crew: Workers,
     starts: Mapping[int, Parameters],
     judge: Judge,
@@ -143,8 +115,8 @@ def tried(
     enough: float = ENOUGH,
     only: Collection[str] | None = None,
     sure: str | None = None,
-) -> Trial:
-    """Search for each reference (by index) from the parameters given, and judge what is found.
+) -> Outcome:
+    """Search for each reference (by row) from the parameters given, and judge the replicas.
 
     budget: None to judge the parameters themselves, moved into the procedure's Ranges. enough: of the threshold, at
     which a search ends. only: names of the scalars that it may change, by default all. sure: the name of a choice that
@@ -156,35 +128,36 @@ def tried(
         goal = enough * judge.goal
         vectors = _refined(space, crew, judge.measure(rows), vectors, budget, goal, seed, only, sure)
     builds = crew.build(vectors)
-    parameters: dict[int, Parameters] = {}
-    replicas: dict[int, Mesh] = {}
-    distances: dict[int, float] = {}
-    for row, build, distance in zip(rows, builds, judge.distances(builds, rows), strict=True):
-        if isinstance(build.shape, Mesh) and np.isfinite(distance):
-            parameters[row], replicas[row], distances[row] = build.parameters, build.shape, float(distance)
-    return Trial(parameters, replicas, distances, judge.settings.threshold)
+    replicas = [
+        Replica(row, build.parameters, build.shape, float(distance))
+        for row, build, distance in zip(rows, builds, judge.distances(builds, rows), strict=True)
+        if isinstance(build.shape, Mesh) and np.isfinite(distance)
+    ]
+    return Outcome.of(replicas, judge.settings.threshold)
 
 
-def mixtures(space: ParameterSpace, trial: Trial, starts: Mapping[int, Parameters]) -> dict[int, list[Parameters]]:
-    """Candidates for the references of ``starts`` that are not compatible, from the choices with which others are.
+def with_borrowed_choices(
+    space: ParameterSpace, outcome: Outcome, starts: Mapping[int, Parameters]
+) -> dict[int, list[Parameters]]:
+    """Candidates for the references of ``starts`` that are not compatible, with the choices with which others are.
 
     A shape that lacks a part may be nearest with choices to which the new part does not belong. Candidates are
     another's parameters, its choices with the reference's own numbers, and one choice of its alone.
     """
     lenders: dict[tuple[object, ...], Parameters] = {}
-    for row in sorted(trial.compatible, key=lambda row: trial.distances[row]):
-        parameters = trial.parameters[row]
+    for row in sorted(outcome.compatible, key=outcome.distance):
+        parameters = outcome.replicas[row].parameters
         lenders.setdefault(tuple(parameters[p.name] for p in space if p.classes), parameters)
-    mixed: dict[int, list[Parameters]] = {}
+    candidates: dict[int, list[Parameters]] = {}
     for row in starts:
         own, known = space.carry(starts[row]), [space.carry(starts[row])]
-        for lender in list(lenders.values())[:_LENDERS] if row not in trial.compatible else ():
+        for lender in list(lenders.values())[:_LENDERS] if row not in outcome.compatible else ():
             for values in _mixed(space, own, lender):
                 if (new := space.canonical(values)) not in known:
                     known.append(new)
         if len(known) > 1:
-            mixed[row] = known[1:]
-    return mixed
+            candidates[row] = known[1:]
+    return candidates
 
 
 def _mixed(space: ParameterSpace, own: Parameters, other: Parameters) -> Iterator[Parameters]:
@@ -199,14 +172,15 @@ def _mixed(space: ParameterSpace, own: Parameters, other: Parameters) -> Iterato
             yield {**other, **numbers, **choices, name: other[name]}
 
 
-def unchanged(crew: Workers, before: Sequence[tuple[Parameters, Mesh]]) -> bool:
+def builds_the_same(crew: Workers, replicas: Sequence[Replica]) -> bool:
     """Whether the procedure still builds these shapes for these parameters: the same bounds, and as much surface."""
-    builds = crew.build([crew.procedure.space.carry(parameters) for parameters, _ in before])
-    for build, (_, mesh) in zip(builds, before, strict=True):
+    builds = crew.build([crew.procedure.space.carry(replica.parameters) for replica in replicas])
+    for build, replica in zip(builds, replicas, strict=True):
+        mesh = replica.mesh
         if not isinstance(build.shape, Mesh):
             return False
         size = float(mesh.extent.max())
-        if np.abs(build.shape.bounds - mesh.bounds).max() > 1e-6 * size or _area(build.shape, mesh) > 1e-6:
+        if np.abs(build.shape.bounds - mesh.bounds).max() > _SAME * size or _area(build.shape, mesh) > _SAME:
             return False
     return True
 
@@ -254,7 +228,7 @@ def _as_inferred(space: ParameterSpace, vectors: Sequence[Parameters], sure: str
         if not parameter.classes:
             columns.append(column)
             continue
-        doubt = 0.0 if parameter.name == sure else 0.1
+        doubt = 0.0 if parameter.name == sure else _UNLIKE
         likely = np.full((len(column), parameter.classes), doubt / parameter.classes, dtype=np.float32)
         likely[np.arange(len(column)), column.astype(int)] = 1.0 - doubt
         columns.append(likely)

@@ -1,0 +1,162 @@
+import pytest
+
+import shapewright as sw
+from shapewright.building import Workers
+from shapewright.feedback.case import Replica
+from shapewright.feedback.trials.attempt import (
+    BRIEF,
+    LONG,
+    OTHER_CHOICES,
+    builds_the_same,
+    nearest_starts,
+    outcome_of,
+    outcome_of_starts,
+    with_borrowed_choices,
+    workers_for,
+)
+from shapewright.feedback.trials.outcome import Outcome
+from shapewright.judging.judge import Judge
+from shapewright.modelling.solids import box, cylinder
+from shapewright.procedures import ProcedureError
+
+POST = """from typing import Annotated
+from shapewright import Range, procedure
+from shapewright.modelling.solids import box
+
+@procedure
+def post(height: Annotated[float, Range(0.2, 1.0)] = 0.6, wide: bool = False):
+    return box((0.5, height, 0.2 if wide else 0.1))
+"""
+
+
+@pytest.fixture
+def post(tmp_path):
+    path = tmp_path / "post.py"
+    path.write_text(POST)
+    return sw.load_procedure(path)
+
+
+@pytest.fixture
+def judge():
+    shapes = {"low": box((0.5, 0.5, 0.1)).mesh(), "tall": box((0.5, 3.0, 0.1)).mesh()}
+    return Judge.of(sw.Collection.of(shapes), sw.Settings(workers=1))
+
+
+START = {"height": 0.8, "wide": False}
+
+
+def parameters(outcome):
+    return {row: replica.parameters for row, replica in outcome.replicas.items()}
+
+
+def distances(outcome):
+    return {row: outcome.distance(row) for row in outcome.counted}
+
+
+def test_a_trial_searches_each_reference_and_judges_it(post, judge):
+    with Workers(post, 1) as crew:
+        first = outcome_of(crew, {0: START, 1: START}, judge, LONG)
+        again = outcome_of(crew, {0: START, 1: START}, judge, LONG)
+        only = outcome_of(crew, {1: START}, judge, None)
+    assert parameters(first) == parameters(again) and distances(first) == distances(again)
+    assert first.compatible == (0,) and first.distance(1) < only.distance(1)
+    assert parameters(only) == {1: START} and first.replicas[1].parameters["height"] > 0.95
+    assert distances(only.joined(first)) == distances(first)
+
+
+def test_a_search_may_leave_some_scalars_as_they_are(post, judge):
+    start = {"height": 0.3, "wide": True}
+    with workers_for(
+        POST.replace("0.1))", "depth))").replace("False)", "False, depth: Annotated[float, Range(0.05, 1.0)] = 0.3)"),
+        post,
+        judge,
+    ) as crew:
+        found = outcome_of(crew, {0: start}, judge, LONG, only=["height"])
+        both = outcome_of(crew, {0: start}, judge, LONG)
+    assert found.replicas[0].parameters["depth"] == pytest.approx(0.3) and found.replicas[0].parameters["height"] > 0.35
+    assert both.distance(0) <= found.distance(0)
+
+
+def test_a_search_keeps_a_choice_that_it_is_sure_of(post):
+    deep = Judge.of(sw.Collection.of({"deep": box((0.5, 0.5, 0.2)).mesh()}), sw.Settings(workers=1))
+    with Workers(post, 1) as crew:
+        free = outcome_of(crew, {0: START}, deep, OTHER_CHOICES)
+        sure = outcome_of(crew, {0: START}, deep, OTHER_CHOICES, sure="wide")
+    assert free.replicas[0].parameters["wide"] is True and sure.replicas[0].parameters["wide"] is False
+    assert free.distance(0) < sure.distance(0)
+    assert distances(free.using(lambda values: not values["wide"])) == {}
+    assert distances(sure.using(lambda values: not values["wide"])) == distances(sure)
+
+
+def test_the_nearest_candidate_is_where_a_search_begins(post, judge):
+    with Workers(post, 1) as crew:
+        candidates = {0: [START, {**START, "height": 0.5}], 1: [{**START, "height": 9.0}]}
+        starts = nearest_starts(crew, candidates, judge, dict.fromkeys(candidates, 1))
+    assert starts[0].parameters["height"] == 0.5 and starts[1].parameters["height"] == 1.0
+    assert starts[0].cost < 0.18 * 15_000 < starts[1].cost
+    outcome = outcome_of_starts(starts, 0.18)
+    assert outcome.compatible == (0,) and outcome.distance(1) == starts[1].cost / 15_000
+    assert with_borrowed_choices(post.space, outcome, {0: START, 1: {**START, "wide": True}}) == {
+        1: [{"height": 0.5, "wide": False}, {"height": 0.8, "wide": False}]
+    }
+
+
+def test_a_changed_procedure_lives_as_long_as_the_trial(post, judge):
+    with workers_for(POST.replace("1.0)]", "4.0)]"), post, judge) as crew:
+        path = crew.procedure.path
+        found = outcome_of(crew, {1: START}, judge, LONG)
+        assert found.compatible == (1,) and found.replicas[1].parameters["height"] > 1.5 and path.exists()
+    assert not path.exists()
+    with pytest.raises(ProcedureError), workers_for("nothing here", post, judge):
+        pass
+
+
+def test_what_was_built_before_stays_as_it_was(post, judge):
+    known = [Replica(0, START, post(**START), 0.1)]
+    with Workers(post, 1) as crew:
+        assert builds_the_same(crew, known)
+    with workers_for(POST.replace("0.1))", "0.15))"), post, judge) as crew:
+        assert not builds_the_same(crew, known)
+    with workers_for(POST.replace("return box", "return box((0.1, height / 2, 0.05)) | box"), post, judge) as crew:
+        assert builds_the_same(crew, known)
+    with workers_for(POST.replace("return box", "raise ValueError; return box"), post, judge) as crew:
+        assert not builds_the_same(crew, known)
+
+
+CHOICE = POST.replace("wide: bool = False", "wide: bool = False, round: bool = False").replace(
+    "return box", "return cylinder((0.5, height, 0.5)) if round else box"
+)
+
+
+def test_references_lend_each_other_their_choices(post):
+    shapes = {f"column{height}": cylinder((0.5, height, 0.5)).mesh() for height in (0.4, 0.9)}
+    judge = Judge.of(sw.Collection.of(shapes), sw.Settings(workers=1))
+    with workers_for(CHOICE.replace("import box", "import box, cylinder"), post, judge) as crew:
+        starts = {0: {**START, "round": True}, 1: {**START, "round": False}}
+        alone = outcome_of(crew, starts, judge, BRIEF)
+        far = Replica(1, alone.replicas[1].parameters, alone.replicas[1].mesh, 0.5)
+        alone = Outcome.of([alone.replicas[0], far], alone.threshold)
+        begin = nearest_starts(crew, with_borrowed_choices(crew.procedure.space, alone, starts), judge, {1: 1})
+        assert list(begin) == [1] and begin[1].parameters["round"]
+        together = alone.joined(outcome_of(crew, {1: begin[1].parameters}, judge, LONG))
+        assert with_borrowed_choices(crew.procedure.space, Outcome.of([], 0.18), starts) == {}
+    assert alone.compatible == (0,) and together.compatible == (0, 1)
+    assert together.replicas[1].parameters["round"] and together.replicas[0].parameters == alone.replicas[0].parameters
+
+
+def test_a_candidate_that_falls_apart_gives_way_to_one_that_stands(post, judge):
+    source = POST.replace("return box", "lower = box((0.5, 0.2, 0.1), at=(0, -3, 0))\n    return lower | box").replace(
+        "0.2 if wide else 0.1))", "0.1), at=(0, 0, 0) if wide else (0, -2.9 + height / 2, 0))"
+    )
+    apart, whole = {"height": 0.8, "wide": True}, {"height": 0.4, "wide": False}
+    with workers_for(source, post, judge) as crew:
+        several = nearest_starts(crew, {1: [apart, whole]}, judge, {1: 1})
+        (cheapest,) = nearest_starts(crew, {1: [apart]}, judge, {1: 1}).values()
+        falling = nearest_starts(crew, {1: [apart, whole]}, judge, {1: 2})
+    assert several[1].parameters == whole and falling[1].parameters == apart and several[1].cost > cheapest.cost
+
+
+def test_replicas_that_fall_apart_do_not_count():
+    whole, apart = box(1.0).mesh(), box(1.0).array(2, (3, 0, 0)).mesh()
+    outcome = Outcome.of([Replica(row, {}, mesh, 0.1) for row, mesh in enumerate((whole, apart, apart))], 0.18)
+    assert outcome.whole({0: 1, 1: 1, 2: 2}).compatible == (0, 2)
