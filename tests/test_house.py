@@ -12,8 +12,6 @@ MODULES = sorted(
 )
 LINES, IN_A_ROOM, AT_THE_TOP = 300, 12, 8
 STILL_LONG = {
-    "feedback/ideas/hypotheses.py",
-    "feedback/ideas/proposals.py",
     "feedback/writing/edit.py",
     "modelling/grammar/boxes.py",
     "modelling/grammar/derivation.py",

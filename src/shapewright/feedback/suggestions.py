@@ -11,7 +11,8 @@ import numpy as np
 from shapewright.building import Workers
 from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.feedback.case import Case
-from shapewright.feedback.ideas.hypotheses import Hypothesis, hypotheses
+from shapewright.feedback.ideas.hypotheses import hypotheses
+from shapewright.feedback.ideas.hypothesis import Hypothesis
 from shapewright.feedback.ideas.proposal import Misfit
 from shapewright.feedback.ideas.proposals import proposals
 from shapewright.feedback.trials.cards import Example, card

@@ -1,7 +1,8 @@
 import numpy as np
 
 from shapewright.comparison.light_field.aligned import AlignedCost
-from shapewright.feedback.ideas.hypotheses import REST, Hypothesis, applied, hypotheses
+from shapewright.feedback.ideas.hypotheses import hypotheses
+from shapewright.feedback.ideas.hypothesis import ALL_OTHERS, Hypothesis, applied
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.modelling.solids import box, cylinder
 
@@ -72,7 +73,7 @@ def test_applying_a_hypothesis():
     replica = (top() | legs()).mesh()
     bare = applied(Hypothesis(removed=("legs",)), replica)
     np.testing.assert_allclose(bare.bounds[:, 1], [0.29, 0.35])
-    inset = applied(Hypothesis(removed=("top",), inset=(REST,), scale=(0.5, 1.0)), replica)
+    inset = applied(Hypothesis(removed=("top",), inset=(ALL_OTHERS,), scale=(0.5, 1.0)), replica)
     np.testing.assert_allclose(inset.extent, [0.5, 0.64, 0.7], atol=0.01)
     apart = applied(Hypothesis(splayed=("legs",), scale=(1.5, 1.0)), replica)
     np.testing.assert_allclose(apart.extent, [1.5, 0.67, 0.7], atol=0.01)

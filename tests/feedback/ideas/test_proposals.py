@@ -2,8 +2,10 @@ import numpy as np
 import pytest
 
 import shapewright as sw
-from shapewright.feedback.ideas.hypotheses import REST, Hypothesis
-from shapewright.feedback.ideas.proposals import Misfit, frames_of, narrowed, proposals
+from shapewright.feedback.ideas.hypothesis import ALL_OTHERS, Hypothesis
+from shapewright.feedback.ideas.needed_ranges import narrowed
+from shapewright.feedback.ideas.proposal import Misfit
+from shapewright.feedback.ideas.proposals import frames_of, proposals
 from shapewright.feedback.parts.pieces import Piece
 
 TABLE = """from typing import Annotated
@@ -94,7 +96,7 @@ def test_parts_that_go_or_stand_further_in(table, tmp_path):
     gone = Hypothesis(removed=("legs",), cost=900.0, before=3000.0)
     block = Hypothesis(removed=("legs",), pieces=(shelf(0.3),), cost=900.0, before=3000.0)
     disc = Piece("cylinder", np.array([-0.5, 0.57, -0.35]), np.array([0.5, 0.63, 0.35]))
-    rounded = Hypothesis(("top",), (REST,), scale=(0.7, 0.7), pieces=(disc,), cost=900.0, before=3000.0)
+    rounded = Hypothesis(("top",), (ALL_OTHERS,), scale=(0.7, 0.7), pieces=(disc,), cost=900.0, before=3000.0)
     found = made(table, [misfit(table, i, each) for i, each in enumerate((drawn, gone, block, rounded))])
     assert {each.kind for each in found} == {"moved part", "part removed", "part replaced"}
     for each in found:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
-from shapewright.feedback.ideas.hypotheses import Hypothesis
+from shapewright.feedback.ideas.hypothesis import Hypothesis
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.writing.wording import Rule
 from shapewright.parameters import End, Parameters, ParameterSpace
@@ -22,11 +22,16 @@ _LEAST_WAY = 0.05  # of the threshold: nearer shapes are as good as compatible
 
 @dataclass(frozen=True, eq=False)
 class Misfit:
-    """A reference that is not replicated: its index, what was found for it, and hypotheses, the best first.
+    """A reference that is not replicated, and what could be changed for it.
 
-    parameters, replica: whose surface has most in common with the reference's. nearest: the parameters that are nearest
-    by the light field, where they are others; wide: the nearest that are known with longer Ranges. goal: the cost of a
-    hypothesis that may well be compatible; before: that of the nearest shape.
+    Attributes:
+        row: index of the reference in the collection.
+        parameters, replica: those whose surface has most in common with the reference's.
+        hypotheses: the best first.
+        nearest: the parameters that are nearest by the light field, where they are others.
+        goal: the cost of a hypothesis that may well be compatible.
+        outside: the nearest parameters that are known with longer Ranges.
+        before: the cost of the nearest shape.
     """
 
     row: int
@@ -35,7 +40,7 @@ class Misfit:
     hypotheses: tuple[Hypothesis, ...] = ()
     nearest: Parameters | None = None
     goal: float = THRESHOLD * RAW_SCALE
-    wide: Parameters | None = None
+    outside: Parameters | None = None
     before: float = np.inf
 
     @cached_property
@@ -55,10 +60,17 @@ class Misfit:
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """A change to try. write: makes the changed source, given ranges. ranges: wide ones to begin with.
+    """A change to try.
 
-    starts: values of the new parameters by misfit's index; others start at the medians. worth: how many references it
-    may help, roughly. rule: None for a wider Range, whose ends are given.
+    Attributes:
+        kind: see ``suggestions.Suggestion``.
+        title: what changes.
+        write: makes the changed source, given Ranges.
+        ranges: wide ones to begin with.
+        starts: values of the new parameters by row of a misfit; others start at the medians.
+        worth: how many references it may help, roughly.
+        rule: of a new or changed part; None for a wider Range.
+        ends: of the Ranges that are wider.
     """
 
     kind: str
@@ -73,7 +85,7 @@ class Proposal:
     def candidates(self, misfit: Misfit) -> list[Parameters]:
         """Where a search may begin for a misfit."""
         if self.rule is None:
-            return [known for known in (misfit.wide, misfit.nearest) if known] or [misfit.parameters]
+            return [known for known in (misfit.outside, misfit.nearest) if known] or [misfit.parameters]
         middle: Parameters = {q.name: as_value(q.whole, self.ranges[q.name][2]) for q in self.rule.quantities}
         flag: Parameters = {self.flag: self._on} if self.flag else {}
         return [{**misfit.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}]
@@ -94,4 +106,10 @@ class Proposal:
 
 
 def as_value(whole: bool, value: float) -> float | int:
+    """A value of a parameter. whole: whether that is an integer."""
     return round(value) if whole else float(value)
+
+
+def listed(words: Sequence[str]) -> str:
+    """Words in a row, as a sentence has them."""
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

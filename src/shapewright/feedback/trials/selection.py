@@ -14,8 +14,8 @@ import numpy as np
 from shapewright.building import Limits, Workers
 from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.feedback.case import Replica
+from shapewright.feedback.ideas.needed_ranges import narrowed
 from shapewright.feedback.ideas.proposal import Misfit, Proposal, Ranges
-from shapewright.feedback.ideas.proposals import narrowed
 from shapewright.feedback.trials.attempt import (
     BRIEF,
     ENOUGH,

@@ -1,0 +1,80 @@
+"""Wider Ranges, where several misfits rest on the same ends."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from shapewright.feedback.ideas.proposal import Misfit, Proposal, Ranges, listed
+from shapewright.feedback.writing.edit import EditError, with_range
+from shapewright.feedback.writing.spelling import number
+from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
+
+_SHARE, _FEWEST = 0.05, 2  # of the misfits, that rest on an end which may move, at least
+_COMMONEST, _ENDS = 8, 6  # ends that are looked at, and that move at most
+_HELPED, _PRICE = 0.6, 0.1  # of a misfit that a longer Range may help; what each end is worth less for being changed
+
+
+def wider_ranges(source: str, procedure: str, space: ParameterSpace, misfits: Sequence[Misfit]) -> Iterator[Proposal]:
+    """A longer Range for each end that several misfits rest on, and one proposal for all these ends."""
+    ends = Counter(end for misfit in misfits for end in sorted(misfit.pressed(space)))
+    least = max(_FEWEST, _SHARE * len(misfits))
+    often = [end for end, count in ends.most_common(_COMMONEST) if count >= least]
+    common = [(name, side) for name, side in often if _can_be_longer(space[name], side)][:_ENDS]
+    for chosen in dict.fromkeys([*((end,) for end in common), tuple(common)]) if common else ():
+        names = tuple(dict.fromkeys(name for name, _ in chosen))
+        wide = {name: _longer(space[name], {side for other, side in chosen if other == name}) for name in names}
+        write = partial(_widened, source, procedure, space)
+        try:
+            write(wide)
+        except EditError:
+            continue
+        members = [m for m in misfits if m.pressed(space) & set(chosen)]
+        starts: dict[int, Parameters] = {m.row: {} for m in members}
+        worth = _HELPED * len(members) - _PRICE * len(chosen)
+        yield Proposal("range", f"A wider Range of {listed(names)}", write, wide, starts, worth, ends=chosen)
+
+
+def _can_be_longer(parameter: Parameter, side: str) -> bool:
+    """Whether a Range may move that end: one that starts at 0 does not start earlier."""
+    low, high, _ = _longer(parameter, {side})
+    assert isinstance(parameter, Scalar | Integer)
+    return low < parameter.low or high > parameter.high
+
+
+def _widened(source: str, procedure: str, space: ParameterSpace, ranges: Ranges) -> str:
+    """The source with these Ranges."""
+    for name, (low, high, _) in ranges.items():
+        parameter = space[name]
+        if isinstance(parameter, Integer):
+            source = with_range(source, procedure, name, str(round(low)), str(round(high)), None)
+        elif isinstance(parameter, Scalar):
+            new = (
+                number(low) if low < parameter.low else None,
+                number(high) if high > parameter.high else None,
+            )
+            limits = (float(new[0] or parameter.low), float(new[1] or parameter.high))
+            source = with_range(source, procedure, name, *new, _steps(parameter, *limits))
+    return source
+
+
+def _steps(parameter: Scalar, low: float, high: float) -> str | None:
+    """As many steps as keep the old distance between them; listed ones with the new ends."""
+    if isinstance(parameter.steps, int):
+        apart = (parameter.high - parameter.low) / (parameter.steps - 1)
+        return str(max(2, round((high - low) / apart) + 1))
+    if parameter.steps is None:
+        return None
+    return f"({', '.join(f'{step:g}' for step in sorted({*parameter.steps, low, high}))})"
+
+
+def _longer(parameter: Parameter, sides: set[str]) -> tuple[float, float, float]:
+    """Low, high and default of a Range that is longer on these sides."""
+    assert isinstance(parameter, Scalar | Integer)
+    longer = parameter.widened()
+    return (
+        longer.low if "low" in sides else parameter.low,
+        longer.high if "high" in sides else parameter.high,
+        parameter.default,
+    )
