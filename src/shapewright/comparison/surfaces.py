@@ -44,6 +44,12 @@ def sample(mesh: Mesh, count: int, seed: int = 0) -> Samples:
     return Samples(points, faces, across[faces] / lengths[faces, None], total / 2.0)
 
 
+def area(mesh: Mesh) -> float:
+    """Of the whole surface, in square units of the mesh."""
+    a, b, c = mesh.triangles.transpose(1, 0, 2)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2.0
+
+
 def sample_surface(mesh: Mesh, count: int, seed: int = 0) -> Floats:
     """Points on the surface, (count, 3), uniform by area."""
     return sample(mesh, count, seed).points

@@ -12,7 +12,7 @@ from shapewright.feedback.surfaces.visible import Surface
 from shapewright.parameters import Parameters
 from shapewright.shapes import Mesh
 
-Kind = Literal[
+CauseKind = Literal[
     "out of range",
     "badly predicted",
     "wrong choice",
@@ -50,11 +50,15 @@ class Cause:
         kind: one of a few kinds.
         text: the cause in words.
         evidence: what shows it, as plain values for JSON.
+        label: of the part that it is about, None where it is about none.
+        weight: of a part: share of the surface times distance from the other surface.
     """
 
-    kind: Kind
+    kind: CauseKind
     text: str
     evidence: Mapping[str, Any] = field(default_factory=dict)
+    label: str | None = None
+    weight: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from typing import Any
 
 from shapewright.feedback.case import Case, Cause, Replica
 from shapewright.feedback.causes.leaning import Leaning
-from shapewright.feedback.causes.structure import part_differences
+from shapewright.feedback.causes.structure import part_causes
 from shapewright.parameters import ParameterSpace, Scalar, Side
 
 _HELPS = 0.2  # share of the distance that a longer Range has to take away to be a cause when it does not suffice
@@ -26,9 +26,8 @@ def diagnosed(space: ParameterSpace, threshold: float, case: Case) -> tuple[Caus
     that they lack. So the surfaces have a say: other parameters or longer Ranges are the chief cause only when they
     bring the shapes very close, or the surfaces together.
     """
-    different = part_differences(case.covering_residuals)
-    parts = [Cause(part.kind, part.text, part.evidence) for part in different]
-    lacking = different[0].kind != "wrong form" and different[0].weight > _LACKING
+    parts = part_causes(case.covering_residuals)
+    lacking = parts[0].kind != "wrong form" and parts[0].weight > _LACKING
     if case.nearest.distance <= threshold:
         overlooked = _overlooked(space, case.replica, case.nearest)
         barely = case.nearest.distance > _BARELY * threshold
@@ -64,7 +63,7 @@ def _leans(lean: Leaning, before: float) -> Cause:
     way = "inwards" if lean.factor < 1.0 else "outwards"
     text = f"another form of {lean.label}: leaning {way}, {lean.factor:.2g} times as far apart at the floor"
     evidence = {"label": lean.label, "factor": lean.factor, "apart": lean.apart, "before": before}
-    return Cause("wrong form", f"{text}; {lean.apart / before:.0%} of what lies apart is left", evidence)
+    return Cause("wrong form", f"{text}; {lean.apart / before:.0%} of what lies apart is left", evidence, lean.label)
 
 
 def _overlooked(space: ParameterSpace, before: Replica, better: Replica) -> Cause:

@@ -9,9 +9,8 @@ import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from shapewright.comparison.grouping import group
-from shapewright.feedback.case import Case, Kind
-from shapewright.feedback.surfaces.residuals import Residuals
-from shapewright.feedback.surfaces.residuals import Side as SurfaceSide
+from shapewright.feedback.case import Case, CauseKind
+from shapewright.feedback.surfaces.residuals import RegionSide, Residuals
 from shapewright.parameters import Excess, ParameterSpace, Side
 from shapewright.shapes import Floats
 
@@ -33,7 +32,7 @@ class SharedCause:
         outside: of a Range: the parameter, the value of the representative and the end of the Range.
     """
 
-    kind: Kind
+    kind: CauseKind
     text: str
     references: tuple[str, ...]
     representative: str
@@ -46,7 +45,7 @@ def shared_causes(space: ParameterSpace, cases: Sequence[Case]) -> list[SharedCa
     References whose chief cause lies in the parts of the shape are grouped by where the surfaces differ as well; a
     reference that several Ranges are too short for is in several groups.
     """
-    kinds: dict[Kind, list[Case]] = {}
+    kinds: dict[CauseKind, list[Case]] = {}
     for case in cases:
         if case.causes:
             kinds.setdefault(case.causes[0].kind, []).append(case)
@@ -60,7 +59,7 @@ def signature(residuals: Residuals) -> Floats:
     return _unit(np.concatenate([_filled(residuals, side).ravel() for side in ("unexplained", "surplus")]))
 
 
-def _filled(residuals: Residuals, side: SurfaceSide) -> Floats:
+def _filled(residuals: Residuals, side: RegionSide) -> Floats:
     cells = np.zeros((_CELLS,) * 3)
     for region in residuals.of(side):
         places = np.clip(((region.points + _HALF) / (2.0 * _HALF) * _CELLS).astype(int), 0, _CELLS - 1)
@@ -73,19 +72,19 @@ def _unit(vector: Floats) -> Floats:
     return vector / length if length > 0.0 else vector
 
 
-def _of_kind(kind: Kind, cases: Sequence[Case]) -> list[SharedCause]:
+def _of_kind(kind: CauseKind, cases: Sequence[Case]) -> list[SharedCause]:
     names = [case.name for case in cases]
     if kind not in _STRUCTURE:
         return [_shared(kind, None, names, names[0])]
     signatures = np.array([signature(case.covering_residuals) for case in cases])
     between = np.clip(1.0 - signatures @ signatures.T, 0.0, None)
     np.fill_diagonal(between, 0.0)
-    labels = {case.name: case.causes[0].evidence.get("label") for case in cases}
+    labels = {case.name: case.causes[0].label for case in cases}
     groups = group(names, between, _ALIKE, absolute=True)
     return [_shared(kind, labels[alike.representative], alike.members, alike.representative) for alike in groups]
 
 
-def _shared(kind: Kind, label: str | None, names: Sequence[str], representative: str) -> SharedCause:
+def _shared(kind: CauseKind, label: str | None, names: Sequence[str], representative: str) -> SharedCause:
     text = f"{kind}{f' near {label}' if label else ''}: {_count(len(names))}"
     return SharedCause(kind, text, tuple(names), representative)
 

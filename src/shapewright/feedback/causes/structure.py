@@ -2,41 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
+from shapewright.feedback.case import Cause
 from shapewright.feedback.surfaces.residuals import Region, Residuals, pieces
 from shapewright.shapes import Floats
 
-Kind: TypeAlias = Literal["missing part", "surplus part", "wrong form"]
+PartCause: TypeAlias = Literal["missing part", "surplus part", "wrong form"]
 
 _APART = 0.06  # mean distance from the replica at which a region is a part of its own, not the same part's other form
 _WHOLE = 0.6  # share of a part that has to be too much for the part to be
 _ALIKE = 1.6  # ratio of the sides of two boxes up to which they are the same part in two places
 _LESSER = 0.5  # of a surplus part where something is unexplained: it stands in for that
-_MINOR = 0.3  # of the weightiest difference: below, it is not told
+_MINOR = 0.3  # of the weightiest difference: below it is left out
 
 
-@dataclass(frozen=True)
-class PartDifference:
-    """One kind of difference. weight: how much of the shape it concerns, and how far off."""
-
-    kind: Kind
-    text: str
-    weight: float
-    evidence: dict[str, Any]
-
-
-def part_differences(residuals: Residuals) -> tuple[PartDifference, ...]:
-    """What is different, the weightiest first; at least one, be it that nothing in particular stands out."""
+def part_causes(residuals: Residuals) -> tuple[Cause, ...]:
+    """What is different in the parts of a shape, the weightiest first; at least one, also where nothing stands out."""
     whole = _whole_parts(residuals)
     moved = _moved(residuals)
-    sorted_out: dict[Kind, list[Region]] = {"missing part": [], "surplus part": [], "wrong form": []}
+    sorted_out: dict[PartCause, list[Region]] = {"missing part": [], "surplus part": [], "wrong form": []}
     for region in residuals:
         if id(region) in moved:
-            kind: Kind = "wrong form"
+            kind: PartCause = "wrong form"
         elif region.side == "unexplained":
             kind = "missing part" if region.distance > _APART else "wrong form"
         else:
@@ -46,38 +36,38 @@ def part_differences(residuals: Residuals) -> tuple[PartDifference, ...]:
     most = max(weights.values())
     if most == 0.0:
         text = "no part of the surface stands out; the difference is in small detail all over"
-        return (PartDifference("wrong form", text, 0.0, {"regions": 0, "share": 0.0}),)
+        return (Cause("wrong form", text, {"regions": 0, "share": 0.0}),)
     unexplained = sum(region.weight for region in residuals.of("unexplained"))
     weights["surplus part"] *= 1.0 if unexplained < _MINOR * most else _LESSER
-    told = [kind for kind in sorted(weights, key=lambda kind: -weights[kind]) if weights[kind] >= _MINOR * most]
-    return tuple(_told(kind, sorted_out[kind], weights[kind]) for kind in told)
+    kinds = [kind for kind in sorted(weights, key=lambda kind: -weights[kind]) if weights[kind] >= _MINOR * most]
+    return tuple(_cause(kind, sorted_out[kind], weights[kind]) for kind in kinds)
 
 
 def _whole_parts(residuals: Residuals) -> set[int]:
     """Surplus regions (ids) that hold most of a connected part of the replica."""
-    found: set[int] = set()
+    ids: set[int] = set()
     parts = pieces(residuals.replica, residuals.mesh)
     for region in residuals.of("surplus"):
         inside = np.zeros(len(residuals.replica.points), dtype=bool)
         inside[region.rows] = True
         of_parts = np.unique(parts[region.rows])
         if any(inside[parts == part].mean() > _WHOLE for part in of_parts if part >= 0):
-            found.add(id(region))
-    return found
+            ids.add(id(region))
+    return ids
 
 
 def _moved(residuals: Residuals) -> set[int]:
     """Regions (ids) of both sides that are the same part in two places: like boxes, not far from each other."""
-    found: set[int] = set()
+    ids: set[int] = set()
     free = list(residuals.of("surplus"))
     for missing in residuals.of("unexplained"):
         for surplus in free:
             gap = float(np.linalg.norm(missing.centre - surplus.centre))
             if gap < max(missing.size.max(), 0.15) and _alike(missing.size, surplus.size):
-                found |= {id(missing), id(surplus)}
+                ids |= {id(missing), id(surplus)}
                 free.remove(surplus)
                 break
-    return found
+    return ids
 
 
 def _alike(a: Floats, b: Floats) -> bool:
@@ -85,9 +75,7 @@ def _alike(a: Floats, b: Floats) -> bool:
     return bool(np.maximum(ratio, 1.0 / ratio).max() < _ALIKE)
 
 
-def _told(
-    kind: Literal["missing part", "surplus part", "wrong form"], regions: list[Region], weight: float
-) -> PartDifference:
+def _cause(kind: PartCause, regions: list[Region], weight: float) -> Cause:
     share = {side: sum(r.share for r in regions if r.side == side) for side in ("unexplained", "surplus")}
     chief = max(regions, key=lambda region: region.weight)
     near = f" near {chief.label}" if chief.label else ""
@@ -111,9 +99,9 @@ def _told(
         "surplus": round(share["surplus"], 4),
         "weight": round(weight, 5),
     }
-    return PartDifference(kind, text, weight, evidence)
+    return Cause(kind, text, evidence, chief.label, weight)
 
 
 def _shares(share: dict[str, float]) -> str:
-    told = [f"{value:.0%} of the surface {side}" for side, value in share.items() if value > 0.0]
-    return " and ".join(told)
+    parts = [f"{value:.0%} of the surface {side}" for side, value in share.items() if value > 0.0]
+    return " and ".join(parts)

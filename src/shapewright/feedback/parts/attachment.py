@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
-from shapewright.comparison.surfaces import sample
+from shapewright.comparison.surfaces import area, sample
 from shapewright.feedback.parts.pieces import Piece
+from shapewright.feedback.surfaces.connection import connected
 from shapewright.feedback.surfaces.visible import Surface
-from shapewright.shapes import Floats, Ints, Mesh
+from shapewright.shapes import Floats, Mesh
 
 _POINTS = 1000
 _REACH = 0.05  # of the whole's largest extent: between a piece's box and what it hangs on to
@@ -27,7 +26,7 @@ def loose(pieces: Sequence[Piece], standing: Sequence[Mesh]) -> int:
     if not pieces:
         return 0
     reach = _REACH * max(float(np.ptp([[p.low, p.high] for p in pieces], axis=(0, 1)).max()), *_extents(standing))
-    points = [sample(mesh, _POINTS).points for mesh in standing if _area(mesh) > 0.0]
+    points = [sample(mesh, _POINTS).points for mesh in standing if area(mesh) > 0.0]
     held = {i for i, piece in enumerate(pieces) if any(_touches(piece, some, reach) for some in points)}
     if not points:
         held = {0}
@@ -49,33 +48,22 @@ def separate(mesh: Mesh) -> int:
     surfaces = [Surface.roughly(part, 300) for part in parts]
     first, second = np.triu_indices(len(parts), 1)
     near = [_apart(parts[i], surfaces[i], parts[j], surfaces[j]) < _GAP for i, j in zip(first, second, strict=True)]
-    return _count(len(parts), first[near], second[near])[0]
+    return connected(len(parts), first[near], second[near])[0]
 
 
 def _components(mesh: Mesh) -> list[Mesh]:
     """Connected pieces, by vertices that coincide."""
     _, index = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
     faces = index.reshape(-1)[mesh.faces]
-    _, component = _count(len(index), faces[:, :2].ravel(), faces[:, 1:].ravel())
+    _, component = connected(len(index), faces[:, :2].ravel(), faces[:, 1:].ravel())
     of_face = component[faces[:, 0]]
     parts = [Mesh(mesh.vertices, mesh.faces[of_face == number]) for number in np.unique(of_face)]
-    return [part for part in parts if _area(part) > 0.0]
-
-
-def _count(nodes: int, first: Ints, second: Ints) -> tuple[int, Ints]:
-    links = coo_matrix((np.ones(len(first)), (first, second)), shape=(nodes, nodes))
-    count, component = connected_components(links, directed=False)
-    return int(count), component
+    return [part for part in parts if area(part) > 0.0]
 
 
 def _apart(a: Mesh, on_a: Surface, b: Mesh, on_b: Surface) -> float:
     corners = np.unique(a.faces), np.unique(b.faces)
     return min(float(on_b.distance(a.vertices[corners[0]]).min()), float(on_a.distance(b.vertices[corners[1]]).min()))
-
-
-def _area(mesh: Mesh) -> float:
-    a, b, c = mesh.triangles.transpose(1, 0, 2)
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
 
 
 def _extents(standing: Sequence[Mesh]) -> list[float]:

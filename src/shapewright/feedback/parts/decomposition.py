@@ -7,12 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from shapewright.feedback.parts.around import spokes
 from shapewright.feedback.parts.pieces import Kind, Piece
+from shapewright.feedback.surfaces.connection import connected_points
 from shapewright.shapes import Floats
 
 MOST = 6
@@ -64,12 +63,9 @@ def _symmetric(places: Floats, axis: int) -> bool:
 
 def _connected(places: Floats) -> list[NDArray[np.intp]]:
     """Rows of the points of each connected group that is large enough."""
-    tree = cKDTree(places)
-    nearest, _ = tree.query(places, k=min(4, len(places)))
+    nearest, _ = cKDTree(places).query(places, k=min(4, len(places)))
     reach = max(3.0 * float(np.median(nearest[:, -1])), 0.015)
-    pairs = tree.query_pairs(reach, output_type="ndarray")
-    links = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(places),) * 2)
-    count, component = connected_components(links, directed=False)
+    count, component = connected_points(places, reach)
     groups = [np.flatnonzero(component == number) for number in range(count)]
     return [group for group in groups if len(group) >= _FEWEST]
 

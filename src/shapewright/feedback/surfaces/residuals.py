@@ -8,39 +8,46 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
-from shapewright.feedback.surfaces.oriented_boxes import Box, fit_box
+from shapewright.feedback.surfaces.connection import connected_points
+from shapewright.feedback.surfaces.oriented_boxes import fit_box
 from shapewright.feedback.surfaces.placement import Fit, place
 from shapewright.feedback.surfaces.visible import SAMPLES, Surface
 from shapewright.shapes import Floats, Ints, Mesh, Transform
 
-Side = Literal["unexplained", "surplus"]
+RegionSide = Literal["unexplained", "surplus"]
 FAR, NEAR = 0.04, 0.02
 """A region holds a point further than FAR from the other surface, and all points around it further than NEAR."""
 LEAST = 0.004
-"""Share of the visible surface below which a region is not worth telling."""
+"""Share of the visible surface below which a region is left out."""
 
+_FEWEST = 8  # points of a region
 _VOTERS = 200  # points of a region that tell which part it is nearest to
+_LINK = 2.5  # spacings of a surface's points within which two are neighbours
 
 
 @dataclass(frozen=True, eq=False)
 class Region:
     """A connected part of one surface that the other does not come near.
 
-    All lengths are in units of the reference's largest extent and all places in the frame of the normalised reference
+    All lengths are in units of the reference's largest extent. All places are in the frame of the normalised reference
     (Y up, front towards +Z, bounding box centred).
 
-    side: "unexplained", of the reference; "surplus", of the replica. points: (N, 3), spread evenly over it. box:
-    centre (3,), size (3,) along axes (3, 3), whose rows are unit vectors. share: of that side's visible surface, 0 to
-    1. distance: mean, to the other surface. label: of the replica's part that it lies on or nearest to, None where
-    that has none. rule: of the grammar, that made that part, where there is one. faces: of that side's mesh. rows: of
-    that side's ``Surface``.
+    Attributes:
+        side: "unexplained", of the reference; "surplus", of the replica.
+        points: (N, 3), spread evenly over it.
+        centre: (3,), of the box around it.
+        size: (3,), of the box along its axes.
+        axes: (3, 3), whose rows are the box's unit vectors.
+        share: of that side's visible surface, 0 to 1.
+        distance: mean, to the other surface.
+        label: of the replica's part that it lies on or is nearest to, None where that has none.
+        rule: of the grammar that made that part, None where there is none.
+        faces: of that side's mesh.
+        rows: of that side's ``Surface``.
     """
 
-    side: Side
+    side: RegionSide
     points: Floats
     centre: Floats
     size: Floats
@@ -62,10 +69,14 @@ class Region:
 class Residuals:
     """How far two surfaces are from each other, and where.
 
-    regions: the weightiest first. mesh: the replica as it was given. placement: takes its units to the frame of the
-    normalised reference; fit: how it was chosen. reference, replica: their surfaces in that frame. to_replica,
-    to_reference: distance of each of their points to the other surface, (N,) and (M,), in units of the reference's
-    largest extent. unexplained, surplus: shares of the visible surfaces that lie in regions.
+    Attributes:
+        regions: the weightiest first.
+        placement: takes units of the replica's mesh to the frame of the normalised reference.
+        fit: how the placement was chosen.
+        mesh: the replica as it was given.
+        reference, replica: their surfaces in that frame.
+        to_replica: (N,), distances of the reference's points to the replica, in units of the reference's extent.
+        to_reference: (M,), the same of the replica's points.
     """
 
     regions: tuple[Region, ...]
@@ -80,16 +91,8 @@ class Residuals:
     def __iter__(self) -> Iterator[Region]:
         return iter(self.regions)
 
-    def of(self, side: Side) -> tuple[Region, ...]:
+    def of(self, side: RegionSide) -> tuple[Region, ...]:
         return tuple(region for region in self.regions if region.side == side)
-
-    @property
-    def unexplained(self) -> float:
-        return sum(region.share for region in self.of("unexplained"))
-
-    @property
-    def surplus(self) -> float:
-        return sum(region.share for region in self.of("surplus"))
 
 
 def residuals(reference: Mesh | Surface, replica: Mesh, samples: int = SAMPLES, seed: int = 0) -> Residuals:
@@ -128,13 +131,13 @@ def pieces(surface: Surface, mesh: Mesh) -> NDArray[np.intp]:
     return result
 
 
-def _regions(side: Side, surface: Surface, distance: Floats, replica: Surface, mesh: Mesh) -> Iterator[Region]:
+def _regions(side: RegionSide, surface: Surface, distance: Floats, replica: Surface, mesh: Mesh) -> Iterator[Region]:
     visible = int(surface.visible.sum())
     for rows in _components(surface, distance):
-        if len(rows) < max(LEAST * visible, 8):
+        if len(rows) < max(LEAST * visible, _FEWEST):
             continue
         points = surface.points[rows]
-        box: Box = fit_box(points)
+        box = fit_box(points)
         some = points[:: max(1, len(points) // _VOTERS)]
         faces = surface.faces[rows] if side == "surplus" else replica.faces[replica.tree.query(some)[1]]
         yield Region(
@@ -165,10 +168,7 @@ def _connected(surface: Surface, rows: NDArray[np.intp]) -> tuple[int, NDArray[n
     """How many connected sets these points form, and which of them each belongs to."""
     if not len(rows):
         return 0, np.empty(0, dtype=np.intp)
-    pairs = cKDTree(surface.points[rows]).query_pairs(2.5 * surface.spacing, output_type="ndarray")
-    links = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(rows), len(rows)))
-    count, component = connected_components(links, directed=False)
-    return int(count), component
+    return connected_points(surface.points[rows], _LINK * surface.spacing)
 
 
 def _commonest(mesh: Mesh, faces: Ints) -> str | None:

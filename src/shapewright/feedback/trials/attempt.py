@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from shapewright.building import Limits, Workers
 from shapewright.comparison.light_field import RAW_SCALE
+from shapewright.comparison.surfaces import area
 from shapewright.feedback.case import Replica
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.trials.outcome import Outcome
@@ -179,19 +180,10 @@ def builds_the_same(crew: Workers, replicas: Sequence[Replica]) -> bool:
         mesh = replica.mesh
         if not isinstance(build.shape, Mesh):
             return False
-        size = float(mesh.extent.max())
-        if np.abs(build.shape.bounds - mesh.bounds).max() > _SAME * size or _area(build.shape, mesh) > _SAME:
+        apart = np.abs(build.shape.bounds - mesh.bounds).max() / float(mesh.extent.max())
+        if max(apart, abs(area(build.shape) - area(mesh)) / area(mesh)) > _SAME:
             return False
     return True
-
-
-def _area(a: Mesh, b: Mesh) -> float:
-    """Difference of the surfaces' areas, as a part of the second."""
-    areas = [
-        float(np.linalg.norm(np.cross(*(m.triangles[:, [1, 2]] - m.triangles[:, :1]).swapaxes(0, 1)), axis=1).sum())
-        for m in (a, b)
-    ]
-    return abs(areas[0] - areas[1]) / max(areas[1], 1e-12)
 
 
 def _refined(
