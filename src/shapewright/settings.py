@@ -21,7 +21,7 @@ Network: TypeAlias = Literal["compact", "vgg19"]
 Optimiser: TypeAlias = Literal["adamw", "adam"]
 Preset: TypeAlias = Literal["fast", "paper"]
 Refine: TypeAlias = Literal["off", "quick", "thorough"]
-Four: TypeAlias = tuple[float, float, float, float]
+Weights: TypeAlias = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +75,7 @@ class Judging:
     """When a replica counts as its reference, and how the other references are grouped. Defaults are the paper's."""
 
     threshold: Annotated[float, Within(above=0), "Largest light-field distance of a compatible mesh."] = 0.18
-    metric: Annotated[Four | None, "Learned from marks: bias; weights of distance, IoU and depth difference."] = None
+    metric: Annotated[Weights | None, "Learned from marks: bias; weights of distance, IoU and depth difference."] = None
     fidelity: Annotated[float, Within(above=0, below=1), "Least visual fidelity (VIF) of a compatible drawing."] = 0.05
     cut: Annotated[float, Within(above=0), "Groups merge up to this share of the largest distance."] = 0.4
     cut_absolute: Annotated[bool, "Groups merge up to the distance cut itself."] = False

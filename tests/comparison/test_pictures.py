@@ -1,8 +1,9 @@
 import pytest
 import shapely
 
-from shapewright.comparison.pictures import VIF_THRESHOLD, intersection_over_union, visual_information_fidelity
+from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
 from shapewright.rendering.ink import HALF, coverage, picture
+from shapewright.settings import Settings
 from shapewright.shapes import Drawing
 
 
@@ -25,7 +26,7 @@ def test_measures_fall_with_the_difference():
     overlaps = [intersection_over_union(table, other) for other in others]
     fidelities = [visual_information_fidelity(table, other) for other in others]
     assert overlaps == sorted(overlaps, reverse=True) and fidelities == sorted(fidelities, reverse=True)
-    assert fidelities[0] > VIF_THRESHOLD > fidelities[-1]
+    assert fidelities[0] > Settings.fidelity > fidelities[-1]
     assert overlaps[0] == pytest.approx((0.06 + 0.2 * 0.64 * 0.8) / (0.06 + 0.2 * 0.64), abs=0.08)
 
 

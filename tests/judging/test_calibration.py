@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from shapewright.judging.calibration import fit_threshold, is_same, verdict
+from shapewright.judging.calibration import calibrate, fit_threshold, is_same
 
 
 def pairs(rng, count, noise):
@@ -14,7 +14,7 @@ def pairs(rng, count, noise):
 
 
 def test_without_marks_the_threshold_is_the_default():
-    found = verdict([], [])
+    found = calibrate([], [])
     assert found.threshold == 0.18 and found.metric is None and found.accuracy is None and found.marks == 0
 
 
@@ -40,27 +40,27 @@ def test_one_stray_mark_does_not_move_the_threshold():
 
 def test_metric_is_learned_only_from_enough_marks_and_only_when_it_is_better():
     measures, same = pairs(np.random.default_rng(1), 60, 0.05)
-    found = verdict(measures, same)
+    found = calibrate(measures, same)
     assert found.metric is not None and found.metric_accuracy > 0.9 > found.accuracy
     right = [
         is_same(found.metric, m["distance"], m["iou"], m["depth"]) == s for m, s in zip(measures, same, strict=True)
     ]
     assert np.mean(right) > 0.95
-    assert verdict(measures[:12], same[:12]).metric is None
+    assert calibrate(measures[:12], same[:12]).metric is None
     by_distance = [{**m, "distance": 0.1 if s else 0.3} for m, s in zip(measures, same, strict=True)]
-    assert verdict(by_distance, same).metric is None and verdict(by_distance, same).accuracy == 1.0
+    assert calibrate(by_distance, same).metric is None and calibrate(by_distance, same).accuracy == 1.0
 
 
 def test_marks_without_all_measures_count_for_the_threshold_alone():
     measures, same = pairs(np.random.default_rng(2), 40, 0.05)
-    found = verdict([{"distance": m["distance"]} for m in measures], same)
+    found = calibrate([{"distance": m["distance"]} for m in measures], same)
     assert found.marks == 40 and found.accuracy is not None and found.metric_accuracy is None
 
 
 def test_accuracy_is_cross_validated_and_so_lower_than_on_the_marks_themselves():
     rng = np.random.default_rng(3)
     measures = [{"distance": float(d)} for d in rng.random(30)]
-    found = verdict(measures, list(rng.random(30) < 0.5))
+    found = calibrate(measures, list(rng.random(30) < 0.5))
     assert found.accuracy < 0.75
 
 

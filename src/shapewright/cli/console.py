@@ -21,7 +21,7 @@ from shapewright.settings import Settings
 
 if TYPE_CHECKING:
     from shapewright.fitting.evaluation import Trial
-    from shapewright.judging.calibration import Verdict
+    from shapewright.judging.calibration import Calibration
     from shapewright.runs.changes import Comparison
     from shapewright.runs.iteration import Iteration
 
@@ -152,15 +152,15 @@ def print_explanation(record: Mapping[str, Any], folder: Path) -> None:
     out.print(f"\n[dim]{spent:.0f} s[/]   report: {escape(str(folder / 'report.html'))}", soft_wrap=True)
 
 
-def print_verdict(path: Path, verdict: Verdict) -> None:
+def print_calibration(path: Path, found: Calibration) -> None:
     """What the marks say so far."""
-    out.print(f"{verdict.marks} marks in {escape(str(path))}", highlight=False, soft_wrap=True)
-    sure = "" if verdict.accuracy is None else f", right for {verdict.accuracy:.0%} of marks that it has not seen"
-    default = verdict.default_accuracy
+    out.print(f"{found.marks} marks in {escape(str(path))}", highlight=False, soft_wrap=True)
+    sure = "" if found.accuracy is None else f", right for {found.accuracy:.0%} of marks that it has not seen"
+    default = found.default_accuracy
     was = "" if default is None else f" ({Settings.threshold} is right for {default:.0%})"
-    out.print(f"threshold {verdict.threshold:.3f}{sure}{was}", highlight=False)
-    if verdict.metric and verdict.metric_accuracy is not None:
-        out.print(f"distance, IoU and depth together: right for {verdict.metric_accuracy:.0%}", highlight=False)
+    out.print(f"threshold {found.threshold:.3f}{sure}{was}", highlight=False)
+    if found.metric and found.metric_accuracy is not None:
+        out.print(f"distance, IoU and depth together: right for {found.metric_accuracy:.0%}", highlight=False)
     out.print("[dim]use it with: shapewright fit PROCEDURE REFERENCES --marks[/]")
 
 

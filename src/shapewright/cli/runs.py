@@ -13,10 +13,10 @@ from rich.markup import escape
 from shapewright.cli.console import (
     err,
     out,
+    print_calibration,
     print_comparison,
     print_explanation,
     print_json,
-    print_verdict,
     progress_bars,
 )
 from shapewright.cli.options import Json, Workers
@@ -25,7 +25,7 @@ from shapewright.runs.marks import marks_path
 from shapewright.storage import cache_folder
 
 if TYPE_CHECKING:
-    from shapewright.judging.calibration import Verdict
+    from shapewright.judging.calibration import Calibration
     from shapewright.procedures import Procedure
     from shapewright.progress import Listener
     from shapewright.references import Collection
@@ -79,11 +79,11 @@ def mark(
     from shapewright.runs.marks import mark as write_mark
 
     path = write_mark(run, name, judgement == "same")
-    found = _verdict(run)
+    found = _calibration(run)
     if json:
         print_json({"path": str(path), **asdict(found)})
     else:
-        print_verdict(path, found)
+        print_calibration(path, found)
 
 
 def report(
@@ -120,18 +120,18 @@ def compare(
 
 def judged_by_marks(folder: Path) -> dict[str, Any]:
     """The settings that a project's marks ask for. folder: of the run to be made. Raises RunError without marks."""
-    found = _verdict(folder)
+    found = _calibration(folder)
     if not found.marks:
         raise RunError(f"{marks_path(folder)}: no marks yet; make some with: shapewright mark RUN NAME same|different")
     return {"threshold": found.threshold, "metric": found.metric}
 
 
-def _verdict(run: Path) -> Verdict:
-    from shapewright.judging.calibration import verdict
+def _calibration(run: Path) -> Calibration:
+    from shapewright.judging.calibration import calibrate
     from shapewright.runs.marks import read_marks
 
     marks = read_marks(run)
-    return verdict([mark.measures for mark in marks], [mark.same for mark in marks])
+    return calibrate([mark.measures for mark in marks], [mark.same for mark in marks])
 
 
 def explanation_of(

@@ -14,9 +14,9 @@ from shapewright.shapes import Drawing, Floats, Shape
 SMALL = 64
 """Pixels along the side of the pictures that are compared."""
 SCALES = ((12.0, 16), (6.0, 8), (3.0, 4), (1.0, 2))
-"""Their blurs, as standard deviations in pixels, and the pixels between the samples that are taken of each."""
+"""Coarse to fine: a blur, as its standard deviation in pixels, and the pixels between the samples of a picture."""
 UNIT = 56.0
-"""What a black pixel counts; sets what the search takes as small."""
+"""What a black pixel counts: a step of the search takes 20 as small, which is about a third of it."""
 _ENDS = np.cumsum([0, *((SMALL // step) ** 2 for _, step in SCALES)]).tolist()
 PARTS = tuple(slice(start, end) for start, end in pairwise(_ENDS))
 """Of the residuals, one for each of the SCALES."""

@@ -14,9 +14,12 @@ Between = Callable[[Sequence[int], Sequence[int]], Floats]
 """Distances (N, M) of shapes with these numbers to those with the others."""
 
 LARGE = 1000
-"""Shapes above which distances of all pairs are not worth their time."""
+"""Shapes above which leaders save time: all pairs of 1,000 take 10 s of CPU, at 21 us each (docs/benchmarks.md)."""
 LEADERS = 150
-_SURE = 1.02  # of the limit: bounds beyond need no proof, though light field distances break the triangle at times
+"""With as many, the groups of 600 random tables are those of all pairs (docs/benchmarks.md)."""
+_SURE = 1.02
+"""Of the limit: pairs whose bound lies beyond are not measured. Above 1, since light field distances break the triangle
+inequality at times."""
 
 
 def group_by_leaders(
@@ -30,8 +33,8 @@ def group_by_leaders(
     """The groups of ``grouping.group``, without the distances of pairs that are surely too far apart for one group.
 
     Leaders are chosen one by one, each the shape furthest from those before (Gonzalez 1985, "Clustering to minimize the
-    maximum intercluster distance"). The distances of two shapes to a leader differ by no more than what they are apart:
-    a bound that leaves only pairs to be measured which may be within the cut. most: leaders. threads: that call
+    maximum intercluster distance"). The distances of two shapes to a leader differ by at most the distance between the
+    two. This bound leaves few pairs to measure: those that may lie within the cut. most: leaders. threads: that call
     ``between``, all cores by default.
     """
     if len(names) < 2:

@@ -70,9 +70,9 @@ def distances(
     """Distances (N, M) of N drawings to M others, or to each other: see ``distance``."""
     if align not in ("free", "upright"):
         raise ValueError(f'align is "free" or "upright", not {align!r}')
-    ours = _table(drawings, align)
-    theirs = ours if others is None else _table(others, align)
-    return np.stack([np.abs(theirs - row).sum(axis=-1) for row in ours]) if len(ours) else np.zeros((0, len(theirs)))
+    first = _table(drawings, align)
+    second = first if others is None else _table(others, align)
+    return np.stack([np.abs(second - row).sum(axis=-1) for row in first]) if len(first) else np.zeros((0, len(second)))
 
 
 def silhouette(drawing: Drawing) -> Bytes:
@@ -97,7 +97,7 @@ def _zernike(image: Bytes) -> NDArray[np.complex128]:
 
 
 def _table(drawings: Sequence[Drawing | Outline], align: Align) -> NDArray[np.complex128] | Floats:
-    described = [each if isinstance(each, Outline) else descriptor(each) for each in drawings]
-    moments = np.array([each.zernike for each in described]).reshape(-1, len(_ORDERS))
-    contours = np.array([each.fourier for each in described]).reshape(-1, FOURIER)
+    described = [drawing if isinstance(drawing, Outline) else descriptor(drawing) for drawing in drawings]
+    moments = np.array([outline.zernike for outline in described]).reshape(-1, len(_ORDERS))
+    contours = np.array([outline.fourier for outline in described]).reshape(-1, FOURIER)
     return np.concatenate([np.abs(moments) if align == "free" else moments, 2.0 * contours], axis=1)

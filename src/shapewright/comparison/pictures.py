@@ -5,18 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from shapewright.comparison.outline import silhouette
-from shapewright.settings import Settings
 from shapewright.shapes import Drawing
-
-VIF_THRESHOLD = Settings.fidelity
-"""A drawing counts as replicated above this fidelity (paper section 6.2)."""
 
 
 def intersection_over_union(a: Drawing, b: Drawing) -> float:
     """Area in common over area of both, each drawing normalised: 0 to 1. It is exact, no matter how thin the lines."""
-    ours, theirs = a.normalised().geometry, b.normalised().geometry
-    common = float(ours.intersection(theirs).area)
-    return common / (ours.area + theirs.area - common)
+    first, second = a.normalised().geometry, b.normalised().geometry
+    common = float(first.intersection(second).area)
+    return common / (first.area + second.area - common)
 
 
 def visual_information_fidelity(reference: Drawing, replica: Drawing) -> float:

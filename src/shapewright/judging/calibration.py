@@ -8,24 +8,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from shapewright.comparison.light_field import THRESHOLD
+from shapewright.settings import Settings, Weights
 from shapewright.shapes import Floats
 
 MEASURES = ("distance", "iou", "depth")
+"""What a metric is learned from, in the order of its weights."""
 ENOUGH, OF_EACH = 20, 6
 """Marks that a metric is learned from at least, in all and of either kind: five for each of its four numbers."""
 _FOLDS = 5  # of a cross-validation, the usual number
-Weights = tuple[float, float, float, float]
-"""A learned metric: bias and weights of distance, IoU and depth difference.
-
-A pair counts as the same where bias + weights . measures is at least 0.
-"""
 Classifier = Callable[[Floats, NDArray[np.bool_], Floats], NDArray[np.bool_]]
 """Learns from measures (N, K) and what is the same (N,) which of other measures (M, K) are the same (M,)."""
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Calibration:
     """What marks say.
 
     threshold: of the light-field distance.
@@ -45,7 +41,7 @@ class Verdict:
     default_accuracy: float | None
 
 
-def verdict(measures: Sequence[Mapping[str, float]], same: Sequence[bool], seed: int = 0) -> Verdict:
+def calibrate(measures: Sequence[Mapping[str, float]], same: Sequence[bool], seed: int = 0) -> Calibration:
     """Fit a threshold, and a metric where there is enough to learn from.
 
     measures: of each pair, "distance" and perhaps "iou" and "depth". Of the thresholds that get most marks right, the
@@ -54,7 +50,7 @@ def verdict(measures: Sequence[Mapping[str, float]], same: Sequence[bool], seed:
     """
     distances, truth = np.array([pair["distance"] for pair in measures], dtype=float), np.array(same, dtype=bool)
     threshold = fit_threshold(distances, truth)
-    default = float(((distances <= THRESHOLD) == truth).mean()) if len(truth) else None
+    default = float(((distances <= Settings.threshold) == truth).mean()) if len(truth) else None
     accuracy = _cross_validated(distances[:, None], truth, _by_threshold, seed)
     whole = [i for i, pair in enumerate(measures) if all(name in pair for name in MEASURES)]
     table = np.array([[measures[i][name] for name in MEASURES] for i in whole]).reshape(-1, len(MEASURES))
@@ -65,10 +61,10 @@ def verdict(measures: Sequence[Mapping[str, float]], same: Sequence[bool], seed:
         by_threshold = _cross_validated(table[:, :1], known, _by_threshold, seed)
         if metric_accuracy is not None and by_threshold is not None and metric_accuracy > by_threshold:
             metric = fit_metric(table, known)
-    return Verdict(threshold, accuracy, metric, metric_accuracy, len(truth), default)
+    return Calibration(threshold, accuracy, metric, metric_accuracy, len(truth), default)
 
 
-def fit_threshold(distances: Floats, same: NDArray[np.bool_], default: float = THRESHOLD) -> float:
+def fit_threshold(distances: Floats, same: NDArray[np.bool_], default: float = Settings.threshold) -> float:
     """The threshold that gets most pairs right; of several the nearest to the default.
 
     Between two distances the middle counts, so that no pair lies on the threshold.
@@ -94,7 +90,10 @@ def fit_metric(table: Floats, same: NDArray[np.bool_]) -> Weights:
 
 
 def is_same(metric: Weights, distance: float, iou: float, depth: float) -> bool:
-    """Whether the metric takes a pair for the same; False where a measure is unknown."""
+    """Whether the metric takes a pair for the same: where bias + weights . measures is at least 0.
+
+    False where a measure is NaN.
+    """
     bias, *weights = metric
     return bool(bias + float(np.dot(weights, [distance, iou, depth])) >= 0.0)
 

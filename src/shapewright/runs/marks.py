@@ -18,11 +18,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from shapewright.judging.calibration import MEASURES
 from shapewright.runs.folder import RECORD, RunError, previous_run, read_record
 from shapewright.storage import write_file
 
 MARKS = "marks.json"
-MEASURES = ("distance", "iou", "depth")
 
 
 @dataclass(frozen=True)
