@@ -17,7 +17,9 @@ import numpy as np
 import pytest
 import trimesh
 
+from shapewright.comparison.surfaces import chamfer
 from shapewright.procedures import load_procedure
+from shapewright.references import Collection
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.wire.frames import parse
 from studio_client import PROCEDURE, Studio, ready, studio
@@ -115,6 +117,16 @@ def test_residuals_of_the_same_shape_are_nought(running: Studio) -> None:
     assert told["distance"] == 0.0 and told["compatible"]
     side = running.next(lambda m: m["type"] == "residuals" and m["id"] == 2)
     assert np.abs(side["arrays"]["distances"]).max() < 1e-5
+
+
+def test_chamfer_is_sampled_with_the_seed_of_the_settings(running: Studio) -> None:
+    reference = Collection.load(running.folder / "references")["table 1"].shape
+    replica = load_procedure(running.folder / "procedure.py")(height=0.8)
+    for number, seed in ((3, 5), (4, 0)):
+        running.send("PATCH", "/api/settings", {"seed": seed})
+        running.say(type="evaluate", id=number, slug="table-1", parameters={"height": 0.8}, residuals=False)
+        told = running.next(lambda m, number=number: m["type"] == "distance" and m["id"] == number)
+        assert told["chamfer"] == pytest.approx(chamfer(reference, replica, seed=seed), abs=1e-9)
 
 
 def test_of_evaluations_that_wait_only_the_newest_counts(running: Studio) -> None:
