@@ -17,7 +17,8 @@ from shapewright.feedback.ideas.proposal import Misfit
 from shapewright.feedback.ideas.proposals import proposals
 from shapewright.feedback.trials.cards import Example, card
 from shapewright.feedback.trials.selection import Change, selected
-from shapewright.feedback.writing.edit import can_edit, parameter_line, snippet
+from shapewright.feedback.writing.edit import parameter_line
+from shapewright.feedback.writing.source import can_edit, snippet
 from shapewright.judging.judge import Judge
 from shapewright.parameters import ParameterSpace
 from shapewright.procedures import Procedure

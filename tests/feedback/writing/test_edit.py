@@ -1,17 +1,8 @@
 import pytest
 
 import shapewright as sw
-from shapewright.feedback.writing.edit import (
-    EditError,
-    NewParameter,
-    NewRule,
-    can_edit,
-    free_name,
-    parameter_line,
-    snippet,
-    with_range,
-    with_rule,
-)
+from shapewright.feedback.writing.edit import NewParameter, NewRule, parameter_line, with_range, with_rule
+from shapewright.feedback.writing.source import EditError, can_edit, free_name, snippet
 
 STOOL = '''"""Stools."""
 
@@ -138,3 +129,57 @@ def test_names_that_are_free():
     assert free_name(STOOL, "stool", "seat") == "seat_2" and free_name(STOOL, "stool", "stool") == "stool_2"
     assert free_name(STOOL, "stool", "box") == "box_2" and free_name(STOOL, "stool", "class") == "class_2"
     assert free_name(STOOL, "stool", "3 Legs") == "part_3_legs"
+
+
+AUTHORED = '''# Bars, as my grandfather made them: été
+from typing import Annotated
+from shapewright import Range, procedure
+from shapewright.modelling.solids import (
+    box,  # for all of it
+)
+
+OAK = {  "wood" : 'oak',}
+
+
+@procedure  # the one
+def bar(
+    length: Annotated[float, Range(1, 2 , )] = 1.5,  # metres
+
+    # of oak
+    wide : "bool"=False ,  # really
+    # more to come
+) :
+    """Bars."""
+
+    if wide :
+        return  box( (length, 2, 1,) )  # wide
+
+    # as they were
+    return box((
+        length, 1, 1  # ells
+    ))  # narrow
+
+
+# nothing else
+'''
+
+
+@pytest.mark.parametrize(
+    "kind", [lambda s: s, lambda s: s.replace("\n", "\r\n"), lambda s: s.replace("    ", "\t"), lambda s: "\ufeff" + s]
+)
+def test_every_other_byte_stays(kind):
+    source = kind(AUTHORED)
+    assert with_range(source, "bar", "length", None, "3", None) == kind(AUTHORED.replace("2 , )", "3 , )"))
+    returned, changed = "return add_foot(shape, reach) if foot else shape\n", AUTHORED
+    parameters = "    foot: bool = False,\n    reach: Annotated[float, Range(0.1, 0.5)] = 0.2,\n"
+    for old, new in (
+        ("  # really\n", f"  # really\n{parameters}"),
+        ("return  box(", "shape = box("),
+        ("  # wide\n", f"  # wide\n        {returned}"),
+        ("return box((", "shape = box(("),
+        ("  # narrow\n", f"  # narrow\n    {returned}\n\n{FOOT.function}\n"),
+        ("# for all of it\n)\n", "# for all of it\n)\nfrom shapewright.modelling.solids import cylinder\n"),
+    ):
+        assert changed.count(old) == 1
+        changed = changed.replace(old, new)
+    assert with_rule(source, "bar", FOOT) == kind(changed)

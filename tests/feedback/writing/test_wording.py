@@ -7,7 +7,8 @@ import pytest
 import shapewright as sw
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import WHOLE
-from shapewright.feedback.writing.edit import free_name, with_rule
+from shapewright.feedback.writing.edit import with_rule
+from shapewright.feedback.writing.source import free_name
 from shapewright.feedback.writing.spelling import Quantity, number
 from shapewright.feedback.writing.wording import addition, drawing_in, removal, splaying
 

@@ -15,7 +15,8 @@ from shapewright.feedback.ideas.wider_ranges import wider_ranges
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import WHOLE, Frames
 from shapewright.feedback.parts.supports import bounds_of
-from shapewright.feedback.writing.edit import free_name, with_rule
+from shapewright.feedback.writing.edit import with_rule
+from shapewright.feedback.writing.source import free_name
 from shapewright.feedback.writing.spelling import noun
 from shapewright.feedback.writing.wording import Rule, addition, drawing_in, removal, splaying
 from shapewright.parameters import Parameters, ParameterSpace

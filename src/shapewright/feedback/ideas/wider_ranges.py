@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from shapewright.feedback.ideas.proposal import Misfit, Proposal, Ranges, listed
-from shapewright.feedback.writing.edit import EditError, with_range
+from shapewright.feedback.writing.edit import with_range
+from shapewright.feedback.writing.source import EditError
 from shapewright.feedback.writing.spelling import number
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 

@@ -31,7 +31,7 @@ from shapewright.feedback.trials.attempt import (
     workers_for,
 )
 from shapewright.feedback.trials.outcome import PROMISING, Outcome
-from shapewright.feedback.writing.edit import EditError
+from shapewright.feedback.writing.source import EditError
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError

@@ -1,19 +1,18 @@
-"""Changes to the text of an author's file, which leave the rest of it as it was written: a wider Range, a new rule."""
+"""Changes of an author's file by its syntax tree, which leave every other byte: another Range, a new rule."""
 
 from __future__ import annotations
 
-import ast
-import builtins
-import keyword
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
-_LINE = 120
+import libcst as cst
+from libcst.metadata import MetadataWrapper, PositionProvider
 
+from shapewright.feedback.writing.source import EditError, code, function_of, imports_in, names_in, parsed, text_of
 
-class EditError(ValueError):
-    """The file is written in a way that the change does not know; the message says what it looked for."""
+_LINE = 120  # characters: what this project's style allows (pyproject.toml)
 
 
 @dataclass(frozen=True)
@@ -32,9 +31,12 @@ class NewParameter:
 class NewRule:
     """A function to add to the file, and what the procedure makes of its shape with it.
 
-    parameters: those that are new. function: its whole text, perhaps none. call: an expression for the changed shape,
-    in which ``{shape}`` stands for the shape so far. flag: an expression that says whether it is changed, None for
-    always. imports: names that all of this needs, by module.
+    Attributes:
+        parameters: the new ones.
+        function: its whole text; empty where the call needs none.
+        call: an expression for the changed shape, in which ``{shape}`` stands for the shape before.
+        flag: an expression that says whether the shape changes; None for always.
+        imports: the names that all of this needs, by module.
     """
 
     parameters: tuple[NewParameter, ...]
@@ -44,66 +46,6 @@ class NewRule:
     imports: Mapping[str, tuple[str, ...]]
 
 
-@dataclass(frozen=True)
-class _Change:
-    start: int
-    end: int
-    text: str
-
-
-class _Text:
-    """A source text with its syntax tree; places are offsets in its bytes."""
-
-    def __init__(self, source: str) -> None:
-        self.bytes = source.encode()
-        self.tree = ast.parse(source)
-        self.starts = [0]
-        for line in self.bytes.splitlines(keepends=True):
-            self.starts.append(self.starts[-1] + len(line))
-
-    def start(self, node: ast.AST) -> int:
-        return self.starts[node.lineno - 1] + node.col_offset  # type: ignore[attr-defined, no-any-return]
-
-    def end(self, node: ast.AST) -> int:
-        return self.starts[node.end_lineno - 1] + node.end_col_offset  # type: ignore[attr-defined, no-any-return]
-
-    def of(self, node: ast.AST) -> str:
-        return self.bytes[self.start(node) : self.end(node)].decode()
-
-    def line_start(self, place: int) -> int:
-        return self.bytes.rfind(b"\n", 0, place) + 1
-
-    def line_end(self, place: int) -> int:
-        found = self.bytes.find(b"\n", place)
-        return len(self.bytes) if found < 0 else found
-
-    def indent(self, place: int) -> str | None:
-        """What stands before a place on its line, when that is white space only."""
-        before = self.bytes[self.line_start(place) : place].decode()
-        return before if not before.strip() else None
-
-    def function(self, name: str) -> ast.FunctionDef:
-        found = [node for node in self.tree.body if isinstance(node, ast.FunctionDef) and node.name == name]
-        if not found:
-            raise EditError(f"there is no function {name} at the top level of the file")
-        return found[-1]
-
-    def changed(self, changes: Sequence[_Change]) -> str:
-        text = self.bytes
-        for change in sorted(changes, key=lambda change: -change.start):
-            text = text[: change.start] + change.text.encode() + text[change.end :]
-        return text.decode()
-
-
-def can_edit(source: str, procedure: str) -> bool:
-    """Whether the source is that of a file with the procedure at its top level."""
-    try:
-        _Text(source).function(procedure)
-    except (EditError, SyntaxError):
-        return False
-    return True
-
-
 def with_range(
     source: str, procedure: str, parameter: str, low: str | None, high: str | None, steps: str | None
 ) -> str:
@@ -111,26 +53,22 @@ def with_range(
 
     Raises EditError when the signature does not spell the Range, in place or as a name given to the annotation.
     """
-    text = _Text(source)
-    call = _range(text, text.function(procedure), parameter)
-    places = dict(zip(("low", "high", "steps"), call.args, strict=False))
-    places |= {word.arg: word.value for word in call.keywords if word.arg}
-    new = {"low": low, "high": high, "steps": steps}
-    return text.changed(
-        [
-            _Change(text.start(places[key]), text.end(places[key]), value)
-            for key, value in new.items()
-            if value and key in places
-        ]
-    )
+    module = parsed(source)
+    call = _range(module, function_of(module, procedure), parameter)
+    new, places = {"low": low, "high": high, "steps": steps}, ("low", "high", "steps", "when")
+    arguments = []
+    for place, argument in zip(places, call.args, strict=False):
+        value = new.get(argument.keyword.value if argument.keyword else place)
+        arguments.append(argument.with_changes(value=cst.parse_expression(value)) if value else argument)
+    return text_of(source, module.deep_replace(call, call.with_changes(args=arguments)))
 
 
 def parameter_line(source: str, procedure: str, parameter: str) -> str:
-    """The lines of the signature that spell a parameter, as they stand; those of its annotation, if that has a name."""
-    text = _Text(source)
-    call = _range(text, text.function(procedure), parameter)
-    start, end = text.line_start(text.start(call)), text.line_end(text.end(call))
-    return text.bytes[start:end].decode().strip()
+    """The lines of the signature that spell a parameter; those of its annotation, if that has a name."""
+    module = parsed(source)
+    call = _range(module, function_of(module, procedure), parameter)
+    place: Any = MetadataWrapper(module, unsafe_skip_copy=True).resolve(PositionProvider)[call]
+    return "\n".join(re.split("\r?\n", source)[place.start.line - 1 : place.end.line]).strip()
 
 
 def with_rule(source: str, procedure: str, rule: NewRule) -> str:
@@ -138,201 +76,153 @@ def with_rule(source: str, procedure: str, rule: NewRule) -> str:
 
     Raises EditError when the procedure has no parameters or returns nothing.
     """
-    text = _Text(source)
-    function = text.function(procedure)
-    changes = [_signature(text, function, rule.parameters), *_returns(text, function, rule)]
-    if rule.function:
-        place = text.line_end(text.end(function))
-        changes.append(_Change(place, place, f"\n\n\n{rule.function.strip()}"))
-    return _imported(text.changed(changes), rule.imports)
+    module = parsed(source)
+    function = function_of(module, procedure)
+    returns = _Returns(rule, module.default_indent)
+    changed = function.with_changes(params=_signature(function, rule.parameters), body=function.body.visit(returns))
+    if not returns.found:
+        raise EditError(f"{procedure} returns nothing")
+    added = list(cst.parse_module(rule.function.strip()).body)  # with the indents and line ends of the author's file
+    if added:
+        added[0] = added[0].with_changes(leading_lines=[cst.EmptyLine(indent=False)] * 2)
+    place = module.body.index(function)
+    body = [*module.body[:place], changed, *added, *module.body[place + 1 :]]
+    for name, names in rule.imports.items():
+        body = _imported(body, name, names)
+    return text_of(source, module.with_changes(body=body))
 
 
-def snippet(before: str, after: str) -> str:
-    """The statements at the top level of ``after`` that ``before`` has not: they run at the end of the old file."""
-    old = {_whole(_Text(before), node) for node in ast.parse(before).body}
-    text = _Text(after)
-    new = [(node, statement) for node in text.tree.body if (statement := _whole(text, node)) not in old]
-    head = [statement for node, statement in new if isinstance(node, ast.Import | ast.ImportFrom)]
-    rest = [statement for node, statement in new if not isinstance(node, ast.Import | ast.ImportFrom)]
-    return "\n\n\n".join(["\n".join(head), *rest] if head else rest) + "\n"
-
-
-def free_name(source: str, procedure: str, wanted: str) -> str:
-    """A name like the one wanted, free in the procedure and at the file's top level: ``shelf``, ``shelf_2``, ..."""
-    text = _Text(source)
-    taken = {node.id for node in ast.walk(text.function(procedure)) if isinstance(node, ast.Name)}
-    taken |= {node.arg for node in ast.walk(text.function(procedure)) if isinstance(node, ast.arg)}
-    for statement in text.tree.body:
-        if isinstance(statement, ast.FunctionDef | ast.ClassDef):
-            taken.add(statement.name)
-        elif isinstance(statement, ast.Import | ast.ImportFrom):
-            taken |= {alias.asname or alias.name for alias in statement.names}
-        else:
-            taken |= {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
-    stem = re.sub(r"\W+", "_", wanted).strip("_").lower() or "part"
-    stem = stem if stem[0].isalpha() else f"part_{stem}"
-    name, number = stem, 1
-    while name in taken or keyword.iskeyword(name) or hasattr(builtins, name):
-        number += 1
-        name = f"{stem}_{number}"
-    return name
-
-
-def _range(text: _Text, function: ast.FunctionDef, parameter: str) -> ast.Call:
-    found = [item for item in _arguments(function) if item.arg == parameter]
-    if not found or found[0].annotation is None:
-        raise EditError(f"{function.name} has no annotated parameter {parameter}")
-    places: list[ast.AST] = [found[0].annotation]
-    named = {node.id for node in ast.walk(found[0].annotation) if isinstance(node, ast.Name)}
-    places += [
-        statement.value
-        for statement in text.tree.body
-        if isinstance(statement, ast.Assign)
-        and any(isinstance(target, ast.Name) and target.id in named for target in statement.targets)
-    ]
-    for place in places:
-        for node in ast.walk(place):
-            if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "Range":
-                return node
+def _range(module: cst.Module, function: cst.FunctionDef, parameter: str) -> cst.Call:
+    """The call of Range in the annotation of a parameter, or in what a name in the annotation stands for."""
+    items = [*function.params.posonly_params, *function.params.params, *function.params.kwonly_params]
+    annotation = next((item.annotation for item in items if item.name.value == parameter), None)
+    if annotation is None:
+        raise EditError(f"{function.name.value} has no annotated parameter {parameter}")
+    named = set(names_in(annotation))
+    lines = [part for line in module.body if isinstance(line, cst.SimpleStatementLine) for part in line.body]
+    aliases = [part for part in lines if isinstance(part, cst.Assign)]
+    places = [part.value for part in aliases if any(named & set(names_in(target)) for target in part.targets)]
+    for place in (annotation, *places):
+        if call := _call_of_range(place):
+            return call
     raise EditError(f"the annotation of {parameter} spells no Range(low, high)")
 
 
-def _arguments(function: ast.FunctionDef) -> list[ast.arg]:
-    return [*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs]
+def _call_of_range(node: cst.CSTNode) -> cst.Call | None:
+    if isinstance(node, cst.Call) and code(node.func).split(".")[-1] == "Range":
+        return node
+    return next((call for child in node.children if (call := _call_of_range(child))), None)
 
 
-def _signature(text: _Text, function: ast.FunctionDef, parameters: Sequence[NewParameter]) -> _Change:
-    """The new parameters behind the last one: on lines of their own where that has one."""
-    items = _arguments(function)
-    if not items:
-        raise EditError(f"{function.name} has no parameters")
-    defaults = [*function.args.defaults, *(default for default in function.args.kw_defaults if default)]
-    end = max(text.end(node) for node in [*items, *defaults])
-    start = text.start(items[-1])
-    indent = text.indent(start)
-    if indent is None:
-        column = " " * (text.start(items[0]) - text.line_start(text.start(items[0])))
-        return _Change(end, end, "".join(f",\n{column}{parameter}" for parameter in parameters))
-    comma, after = _comma(text.bytes, end)
-    lines = "".join(f"\n{indent}{parameter}," for parameter in parameters)
-    if not comma:
-        return _Change(end, end, "," + lines[:-1])
-    place = text.line_end(after)
-    return _Change(place, place, lines)
+def _signature(function: cst.FunctionDef, parameters: Sequence[NewParameter]) -> cst.Parameters:
+    """The parameters and new ones behind the last, each on a line of its own below the first."""
+    kinds = ("kwonly_params", "params", "posonly_params")
+    kind = next((kind for kind in kinds if getattr(function.params, kind)), None)
+    if kind is None:
+        raise EditError(f"{function.name.value} has no parameters")
+    before = function.whitespace_before_params
+    indent = before.last_line.value if isinstance(before, cst.ParenthesizedWhitespace) else ""
+    column = cst.SimpleWhitespace(indent or " " * len(f"def {function.name.value}("))
+    below = head = cst.ParenthesizedWhitespace(last_line=column)
+    *others, last = getattr(function.params, kind)
+    comma = last.comma if isinstance(last.comma, cst.Comma) else None
+    tail = comma.whitespace_after if comma else last.whitespace_after_param
+    if isinstance(tail, cst.ParenthesizedWhitespace):  # a comment behind the last one stays there
+        head, tail = below.with_changes(first_line=tail.first_line), tail.with_changes(first_line=below.first_line)
+    between = (comma or cst.Comma()).with_changes(whitespace_after=head)
+    last = last.with_changes(comma=between, whitespace_after_param=cst.SimpleWhitespace(""))
+    stub: Any = cst.parse_statement(f"def f({', '.join(map(str, parameters))}): ...")
+    *new, end = stub.params.params
+    new = [item.with_changes(comma=cst.Comma(whitespace_after=below)) for item in new]
+    closing = {"comma": cst.Comma(whitespace_after=tail)} if comma else {"whitespace_after_param": tail}
+    return function.params.with_changes(**{kind: [*others, last, *new, end.with_changes(**closing)]})
 
 
-def _comma(source: bytes, place: int) -> tuple[bool, int]:
-    """Whether a comma follows, after white space and comments; and the place behind it."""
-    found = re.compile(rb"(?:\s|#[^\n]*)*,").match(source, place)
-    return (True, found.end()) if found else (False, place)
+class _Returns(cst.CSTTransformer):
+    """Puts a rule's call at every return of a function's body, not of functions inside it."""
+
+    def __init__(self, rule: NewRule, indent: str) -> None:
+        super().__init__()
+        self.rule, self.indent = rule, indent
+        self.column, self.found = 0, False
+
+    def on_visit(self, node: cst.CSTNode) -> bool:
+        if isinstance(node, cst.IndentedBlock):
+            self.column += len(node.indent or self.indent)
+        return not isinstance(node, cst.FunctionDef | cst.ClassDef | cst.BaseExpression)
+
+    def on_leave(self, original_node: cst.CSTNode, updated_node: Any) -> Any:
+        match updated_node:
+            case cst.IndentedBlock():
+                self.column -= len(updated_node.indent or self.indent)
+            case cst.SimpleStatementLine(body=[cst.Return(value=cst.BaseExpression() as value)]):
+                self.found = True
+                return cst.FlattenSentinel(self._statements(updated_node, value))
+            case cst.SimpleStatementLine(body=[*before, last]) | cst.SimpleStatementSuite(body=[*before, last]):
+                if isinstance(last, cst.Return) and last.value:
+                    self.found = True
+                    call: Any = cst.parse_statement(f"return {self._call(f'({code(last.value)})')}")
+                    return updated_node.with_changes(body=[*before, *call.body])
+        return updated_node
+
+    def _statements(self, line: cst.SimpleStatementLine, value: cst.BaseExpression) -> list[Any]:
+        """The statements that return what the rule makes of a value."""
+        name = "shape"
+        match value:  # a name; or changed(name, ...) if flag else name, as earlier changes leave it
+            case (
+                cst.Name(value=kept)
+                | cst.IfExp(orelse=cst.Name(value=kept))
+                | cst.Call(args=[cst.Arg(value=cst.Name(value=kept), keyword=None, star=""), *_])
+            ):
+                name = kept
+        statements: list[Any] = list(cst.parse_module(self._text(name)).body)
+        if not isinstance(value, cst.Name):
+            return [line.with_changes(body=[cst.Assign([cst.AssignTarget(cst.Name(name))], value)]), *statements]
+        statements[0] = statements[0].with_changes(leading_lines=line.leading_lines)
+        statements[-1] = statements[-1].with_changes(trailing_whitespace=line.trailing_whitespace)
+        return statements
+
+    def _call(self, shape: str) -> str:
+        call = self.rule.call.format(shape=shape)
+        return f"{call} if {self.rule.flag} else {shape}" if self.rule.flag else call
+
+    def _text(self, name: str) -> str:
+        """Lines that return what the rule makes of a shape with a name, as short as there is room."""
+        room, returned = _LINE - self.column, f"return {self._call(name)}"
+        if len(returned) <= room or not self.rule.flag:
+            return returned
+        assignment = f"    {name} = {self.rule.call.format(shape=name)}"
+        if len(assignment) > room:
+            opened, arguments = assignment[:-1].split("(", 1)
+            if len(arguments) + 8 >= room:
+                arguments = arguments.replace(", ", ",\n        ") + ","
+            assignment = f"{opened}(\n        {arguments}\n    )"
+        return f"if {self.rule.flag}:\n{assignment}\nreturn {name}"
 
 
-def _returns(text: _Text, function: ast.FunctionDef, rule: NewRule) -> Iterator[_Change]:
-    statements = [node for node in _own(function) if isinstance(node, ast.Return) and node.value is not None]
-    if not statements:
-        raise EditError(f"{function.name} returns nothing")
-    for statement in statements:
-        assert statement.value is not None
-        start, end = text.start(statement), text.end(statement)
-        expression = text.bytes[start + len("return") : end].decode().strip()
-        indent = text.indent(start)
-        if indent is None:
-            yield _Change(start, end, f"return {_one_line(rule, f'({expression})')}")
-            continue
-        named = isinstance(statement.value, ast.Name)
-        name = expression if named else _kept(statement.value) or "shape"
-        lines = [] if named else [f"{name} = {expression}"]
-        returned = f"return {_one_line(rule, name)}"
-        if len(indent) + len(returned) <= _LINE or not rule.flag:
-            lines.append(returned)
-        else:
-            lines.append(f"if {rule.flag}:")
-            assignment = f"    {name} = {rule.call.format(shape=name)}"
-            if len(indent) + len(assignment) > _LINE:
-                opened, arguments = assignment[:-1].split("(", 1)
-                inner = f"\n{indent}        "
-                if len(inner) + len(arguments) > _LINE:
-                    arguments = f",{inner}".join(arguments.split(", ")) + ","
-                assignment = f"{opened}({inner}{arguments}\n{indent}    )"
-            lines += [assignment, f"return {name}"]
-        yield _Change(start, end, f"\n{indent}".join(lines))
-
-
-def _one_line(rule: NewRule, shape: str) -> str:
-    call = rule.call.format(shape=shape)
-    return f"{call} if {rule.flag} else {shape}" if rule.flag else call
-
-
-def _kept(value: ast.expr) -> str | None:
-    """The name in ``changed(name, ...) if flag else name``, as earlier changes leave it."""
-    if isinstance(value, ast.IfExp) and isinstance(value.orelse, ast.Name):
-        return value.orelse.id
-    if isinstance(value, ast.Call) and value.args and isinstance(value.args[0], ast.Name):
-        return value.args[0].id
-    return None
-
-
-def _own(function: ast.FunctionDef) -> Iterator[ast.AST]:
-    """The nodes of a function that are not in functions or classes inside it."""
-    stack: list[ast.AST] = list(function.body)
-    while stack:
-        node = stack.pop()
-        yield node
-        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda | ast.ClassDef):
-            stack.extend(ast.iter_child_nodes(node))
-
-
-def _imported(source: str, imports: Mapping[str, tuple[str, ...]]) -> str:
-    """The source with these names imported, in the statements that import from the module already where there are."""
-    for module, names in imports.items():
-        text = _Text(source)
-        bound = {
-            alias.asname or alias.name
-            for node in text.tree.body
-            if isinstance(node, ast.ImportFrom)
-            for alias in node.names
-        }
-        missing = [name for name in names if name not in bound]
-        if not missing:
-            continue
-        same = [
-            node
-            for node in text.tree.body
-            if isinstance(node, ast.ImportFrom) and node.module == module and not node.level
-        ]
-        if same:
-            have = [f"{a.name} as {a.asname}" if a.asname else a.name for a in same[0].names]
-            source = text.changed(
-                [_Change(text.start(same[0]), text.end(same[0]), _statement(module, [*have, *missing]))]
-            )
-        else:
-            source = text.changed([_new_import(text, _statement(module, missing))])
-    return source
-
-
-def _statement(module: str, names: Sequence[str]) -> str:
-    ordered = sorted(names, key=lambda name: (name[0].islower(), name.lower()))
+def _imported(body: Sequence[Any], module: str, names: Sequence[str]) -> list[Any]:
+    """The statements with these names imported: in the import from the module that is there, or in a new one."""
+    places = [(place, part) for place, statement in enumerate(body) for part in imports_in(statement)]
+    aliases: set[str] = set()
+    bound: set[str] = set()
+    own = -1
+    for place, part in places:
+        if isinstance(part, cst.ImportFrom) and not isinstance(part.names, cst.ImportStar):
+            spelled = {code(name.with_changes(comma=cst.MaybeSentinel.DEFAULT)) for name in part.names}
+            bound |= {name.split()[-1] for name in spelled}
+            text = code(part)
+            alone = len(body[place].body) == 1 and "#" not in text  # what else the line says stays
+            if own < 0 and alone and text.startswith(f"from {module} "):
+                own, aliases = place, spelled
+    missing = set(names) - bound
+    if not missing:
+        return list(body)
+    ordered = sorted(missing | aliases, key=lambda name: (name[0].islower(), name.lower()))
     line = f"from {module} import {', '.join(ordered)}"
-    if len(line) <= _LINE:
-        return line
-    return f"from {module} import (\n" + "".join(f"    {name},\n" for name in ordered) + ")"
-
-
-def _new_import(text: _Text, statement: str) -> _Change:
-    """Behind the last import at the top of the file, else behind its docstring, else first of all."""
-    imports = [node for node in text.tree.body if isinstance(node, ast.Import | ast.ImportFrom)]
-    if imports:
-        place = text.line_end(text.end(imports[-1]))
-        return _Change(place, place, f"\n{statement}")
-    first = text.tree.body[0]
-    if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
-        place = text.line_end(text.end(first))
-        return _Change(place, place, f"\n\n{statement}")
-    return _Change(0, 0, f"{statement}\n\n")
-
-
-def _whole(text: _Text, node: ast.stmt) -> str:
-    """The text of a statement with its decorators."""
-    decorators = node.decorator_list if isinstance(node, ast.FunctionDef | ast.ClassDef) else []
-    start = text.line_start(min(text.start(each) for each in [node, *decorators]))
-    return text.bytes[start : text.end(node)].decode()
+    if len(line) > _LINE:
+        line = f"from {module} import (\n" + "".join(f"    {name},\n" for name in ordered) + ")"
+    statement: Any = cst.parse_statement(line)
+    if own >= 0:
+        return [*body[:own], body[own].with_changes(body=statement.body), *body[own + 1 :]]
+    place = places[-1][0] + 1 if places else int(cst.Module(body).get_docstring() is not None)
+    return [*body[:place], statement, *body[place:]]
