@@ -20,8 +20,9 @@ from PIL import Image
 from scipy.ndimage import gaussian_filter
 
 from shapewright import Infeasible, Iteration, Mesh, load_procedure
-from shapewright.rendering.cameras import Camera, pack
-from shapewright.rendering.raster import LIGHT, draw_view
+from shapewright.rendering import raster
+from shapewright.rendering.cameras import Camera
+from shapewright.rendering.raster import LIGHT
 from shapewright.threads import in_threads
 
 Floats: TypeAlias = NDArray[np.float64]
@@ -124,8 +125,7 @@ def tile(mesh: Mesh, tint: Floats) -> Tile:
 
 def view(vertices: Floats, faces: NDArray[np.int64]) -> tuple[Floats, Floats]:
     side = TILE * SUPERSAMPLE
-    shade, depth = np.empty((2, side, side), dtype=np.float32)
-    draw_view(vertices, faces, pack([CAMERA])[0], np.empty_like(vertices), shade, depth)
+    shade, depth = raster.view(Mesh(vertices, faces), CAMERA, side)
     return shade.astype(np.float64), depth.astype(np.float64)
 
 

@@ -17,9 +17,9 @@ import numpy as np
 from PIL import Image
 
 from shapewright.modelling.grammar import Derivation
-from shapewright.rendering.cameras import THUMBNAIL, pack
+from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.ink import picture
-from shapewright.rendering.raster import draw_view
+from shapewright.rendering.raster import view
 from shapewright.rendering.thumbnails import SUPERSAMPLE, thumbnail
 from shapewright.shapes import Drawing, Mesh, concatenate
 from shapewright.shapes.conversion import as_shape
@@ -99,9 +99,7 @@ def tints(mesh: Mesh) -> np.ndarray[Any, Any]:
     labels = mesh.face_labels if mesh.face_labels is not None else np.full(len(mesh.faces), -1)
     nearest, tint = np.zeros((side, side), dtype=np.float32), np.tile(PALETTE[0].astype(np.float64), (side, side, 1))
     for label in np.unique(labels):
-        shade, depth = np.empty((2, side, side), dtype=np.float32)
-        faces = mesh.faces[labels == label]
-        draw_view(mesh.vertices, faces, pack([THUMBNAIL])[0], np.empty_like(mesh.vertices), shade, depth)
+        _, depth = view(Mesh(mesh.vertices, mesh.faces[labels == label]), THUMBNAIL, side)
         seen = depth > nearest
         nearest[seen] = depth[seen]
         tint[seen] = PALETTE[(label + 1) % len(PALETTE) if len(set(labels)) > 1 else 0]

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from shapewright.comparison.overlap import intersection_over_union
 from shapewright.comparison.surfaces import chamfer, sample_surface
+from shapewright.comparison.views import intersection_over_union
 from shapewright.modelling.solids import box, cylinder
 from shapewright.shapes import Mesh
 

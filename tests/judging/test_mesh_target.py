@@ -6,10 +6,9 @@ import pytest
 import shapewright as sw
 from shapewright.building import Build
 from shapewright.comparison import light_field
-from shapewright.comparison.depths import depth_difference
 from shapewright.comparison.light_field.aligned import AlignedCost
-from shapewright.comparison.overlap import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
+from shapewright.comparison.views import depth_difference, intersection_over_union
 from shapewright.judging.judge import Judge, target_of
 from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.target import Measures

@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 from shapewright.modelling.solids import box, cylinder
-from shapewright.rendering.cameras import THREE_VIEWS, Camera, pack
+from shapewright.rendering.cameras import THREE_VIEWS, Camera
 from shapewright.rendering.raster import render
 from shapewright.shapes import Mesh
 
@@ -41,9 +41,8 @@ def test_golden_images(name, mesh, cameras, size):
 def test_a_front_view_shows_the_size_that_perspective_gives():
     camera = Camera(0.0, 0.0, distance=4.0, field_of_view=30.0)
     image = render([box((1, 0.5, 1e-6)).mesh()], [camera], size=256, supersample=1)[0, 0, 0] > 0
-    focal = pack([camera])[0, 10]
     rows, columns = np.flatnonzero(image.any(axis=1)), np.flatnonzero(image.any(axis=0))
-    assert len(columns) == pytest.approx(256 * focal / 4.0 / 2, abs=1)
+    assert len(columns) == pytest.approx(256 * camera.focal_length / 4.0 / 2, abs=1)
     assert len(rows) == pytest.approx(len(columns) / 2, abs=1)
 
 

@@ -10,12 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from shapewright.comparison import light_field
-from shapewright.comparison.depths import depth_difference
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.leaders import LARGE, group_by_leaders
 from shapewright.comparison.light_field.aligned import AlignedCost, nearest_field
-from shapewright.comparison.overlap import intersection_over_union
 from shapewright.comparison.surfaces import chamfer
+from shapewright.comparison.views import depth_difference, intersection_over_union
 from shapewright.judging.calibration import is_same
 from shapewright.judging.paper import Metric, light_field_metric
 from shapewright.judging.target import Measures

@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 class Camera:
     """A perspective camera that looks at the origin, up along +Y.
 
-    azimuth: degrees about the up axis, 0 in front (+Z), 90 to the right (+X). elevation: degrees above the horizon.
-    distance: to the origin, in units of the shape's largest extent. field_of_view: degrees, of the whole image.
+    azimuth: degrees about the up axis, 0 in front (+Z), 90 to the right (+X).
+    elevation: degrees above the horizon.
+    distance: to the origin, in units of the shape's largest extent.
+    field_of_view: degrees, of the whole image.
     """
 
     azimuth: float
@@ -37,15 +39,34 @@ class Camera:
         right = np.array([math.cos(azimuth), 0.0, -math.sin(azimuth)])
         return np.stack([right, np.cross(backward, right), backward])
 
+    @property
+    def focal_length(self) -> float:
+        """In units of half an image: what is as wide as it is far away covers this many halves of the image."""
+        return 1.0 / math.tan(math.radians(self.field_of_view) / 2.0)
+
+    def project(self, points: NDArray[np.float64], size: int) -> tuple[NDArray[np.float64], ...]:
+        """Column, row and depth, (N,) each, of points (N, 3) in a picture of size x size pixels.
+
+        Columns and rows count pixels from the upper left corner, fractions included: the first pixel reaches from 0 to
+        1. Outside the picture they are below 0 or above ``size``. Depth is the distance along the view, in units of the
+        shape's largest extent; it is negative behind the camera.
+        """
+        right, up, towards = self.frame() @ points.T
+        depth = self.distance - towards
+        scale = self.focal_length / depth * size / 2.0
+        return size / 2.0 + scale * right, size / 2.0 - scale * up, depth
+
 
 THREE_VIEWS = (Camera(35.0, 25.0), Camera(0.0, 5.0), Camera(90.0, 15.0))
 PAGE = Camera(0.0, 0.0)
 """The camera of drawings: there is one picture of them, and it is never moved."""
 THUMBNAIL = Camera(35.0, 25.0, distance=3.6, field_of_view=27.5)
 
-_FURTHER = ((215.0, 25.0), (125.0, -20.0), (300.0, 55.0))
+_FURTHER = ((215.0, 25.0), (125.0, -20.0), (300.0, 55.0))  # behind, below, above
 _GOLDEN_ANGLE = 180.0 * (3.0 - math.sqrt(5.0))
 _ELEVATION, _DISTANCE = math.radians(85.0), (1.8, 6.0)
+"""Limits of learned cameras, in radians and units of the largest extent: short of the poles, where the azimuth means
+nothing; outside the shape, whose corners are 0.87 from the origin; near enough for it to fill part of a picture."""
 
 
 def starting_views(count: int = 3, distance: float = 2.6) -> tuple[Camera, ...]:
@@ -81,9 +102,4 @@ def pack(cameras: Sequence[Camera]) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=64)
 def _packed(cameras: tuple[Camera, ...]) -> NDArray[np.float64]:
-    return np.array(
-        [
-            [*camera.frame().ravel(), camera.distance, 1.0 / math.tan(math.radians(camera.field_of_view) / 2.0)]
-            for camera in cameras
-        ]
-    )
+    return np.array([[*camera.frame().ravel(), camera.distance, camera.focal_length] for camera in cameras])

@@ -15,9 +15,13 @@ from shapewright.shapes import Mesh, Shape
 from shapewright.threads import in_threads
 
 AMBIENT = 0.25
+"""Shading of a face that the light only grazes; 1 is a face that looks into it."""
 LIGHT = (0.35, 0.5, 0.79)
+"""Direction to the light, right, up and towards the camera; of length 1."""
 DEPTH_RADIUS = 0.87
+"""Of the ball about the origin whose depths pictures tell apart: half the diagonal of a cube of side 1, rounded up."""
 _NEAR = 0.05
+"""Vertices nearer to the camera than this, in units of the largest extent, are not drawn."""
 
 
 def render(
@@ -48,6 +52,25 @@ def render(
     return images
 
 
+def view(mesh: Mesh, camera: Camera, size: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """One view of a normalised mesh: shading and inverse depth, (size, size) each, row 0 at the top, 0 where empty.
+
+    Shading is AMBIENT to 1, inverse depth one over the distance along the view.
+    """
+    shade, inverse_depth = np.empty((2, size, size), dtype=np.float32)
+    _draw_view(mesh.vertices, mesh.faces, pack([camera])[0], np.empty_like(mesh.vertices), shade, inverse_depth)
+    return shade, inverse_depth
+
+
+def inverse_depths(mesh: Mesh, cameras: Sequence[Camera], size: int) -> NDArray[np.float32]:
+    """One over the distance along each view of a normalised mesh, (C, size, size), row 0 at the top, 0 where empty."""
+    inverse = np.empty((len(cameras), size, size), dtype=np.float32)
+    shade, projected = np.empty((size, size), dtype=np.float32), np.empty_like(mesh.vertices)
+    for camera, image in zip(pack(cameras), inverse, strict=True):
+        _draw_view(mesh.vertices, mesh.faces, camera, projected, shade, image)
+    return inverse
+
+
 @njit(nogil=True, cache=True)
 def _draw(
     vertices: NDArray[np.float64],
@@ -62,12 +85,12 @@ def _draw(
     inverse_depth = np.empty((side, side), dtype=np.float32)
     projected = np.empty((len(vertices), 3))
     for c in range(len(cameras)):
-        draw_view(vertices, faces, cameras[c], projected, shade, inverse_depth)
+        _draw_view(vertices, faces, cameras[c], projected, shade, inverse_depth)
         _resolve(shade, inverse_depth, cameras[c, 9], supersample, images[c])
 
 
 @njit(nogil=True, cache=True)
-def draw_view(
+def _draw_view(
     vertices: NDArray[np.float64],
     faces: NDArray[np.int64],
     camera: NDArray[np.float64],

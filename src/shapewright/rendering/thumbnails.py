@@ -13,21 +13,23 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from shapewright.rendering import ink
-from shapewright.rendering.cameras import THUMBNAIL, Camera, pack
-from shapewright.rendering.raster import AMBIENT, draw_view
+from shapewright.rendering.cameras import THUMBNAIL, Camera
+from shapewright.rendering.raster import AMBIENT, view
 from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.threads import in_threads
 
 SUPERSAMPLE = 3
-# Edges are drawn where the surface bends by more than this angle (rounded parts of 12 sides and more stay clean), and
-# where one part stands in front of another by more than this length.
+"""Samples of a pixel along either side."""
 CREASE = math.radians(36.0)
+"""Edges are drawn where the surface bends by more than this angle: rounded parts of 12 sides and more stay clean."""
 STEP = 0.012
-# Greys are lifted off black, so that a tint over them keeps its hue; edges are this part of their surroundings.
+"""Edges are drawn where one part stands in front of another by more than this, in units of the largest extent."""
 _DARKEST, _INK = 0.42, 0.4
-# Fewer greys make smaller files, and nobody can tell 32 from 256 on flat faces.
+"""The darkest grey, off black, so that a tint over it keeps its hue; and edges, as a part of their surroundings."""
 _GREYS = 32
+"""Fewer greys make smaller files, and nobody can tell 32 from 256 on flat faces."""
 _PLAIN = 150
+"""The grey of drawings, of 255: light enough for a tint over it to show."""
 
 
 def thumbnail(shape: Shape, size: int = 256, camera: Camera = THUMBNAIL) -> bytes:
@@ -54,13 +56,10 @@ def _plain(drawing: Drawing, size: int) -> NDArray[np.uint8]:
 
 
 def _shaded(mesh: Mesh, size: int, camera: Camera) -> NDArray[np.uint8]:
-    normalised = mesh.normalised()
-    packed = pack([camera])[0]
     side = size * SUPERSAMPLE
-    shade, inverse_depth = np.empty((2, side, side), dtype=np.float32)
-    draw_view(normalised.vertices, normalised.faces, packed, np.empty_like(normalised.vertices), shade, inverse_depth)
+    shade, inverse_depth = view(mesh.normalised(), camera, side)
     picture = np.empty((size, size, 2), dtype=np.uint8)
-    _ink(shade, inverse_depth, 2.0 / (side * packed[10]), picture)
+    _ink(shade, inverse_depth, 2.0 / (side * camera.focal_length), picture)
     return picture
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from shapewright.rendering.cameras import THUMBNAIL, pack
+from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.runs.folder import EXPLANATION, read_json
 
 PICTURES = "suggestions"
@@ -61,11 +61,6 @@ def _corners(region: Mapping[str, Any]) -> Floats:
 
 def _path(corners: Floats) -> str:
     """The edges of a box as an SVG path."""
-    camera = pack([THUMBNAIL])[0]
-    right, up, towards = camera[:9].reshape(3, 3) @ corners.T
-    scale = 50.0 * camera[10] / (camera[9] - towards)
-    places = np.stack([50.0 + scale * right, 50.0 - scale * up], axis=1)
-    lines: Sequence[str] = [
-        f"M{places[a, 0]:.1f} {places[a, 1]:.1f}L{places[b, 0]:.1f} {places[b, 1]:.1f}" for a, b in _EDGES
-    ]
+    column, row, _ = THUMBNAIL.project(corners, 100)
+    lines: Sequence[str] = [f"M{column[a]:.1f} {row[a]:.1f}L{column[b]:.1f} {row[b]:.1f}" for a, b in _EDGES]
     return "".join(lines)

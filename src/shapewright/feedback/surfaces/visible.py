@@ -8,44 +8,22 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from shapewright.comparison.surfaces import sample
 from shapewright.feedback.surfaces.point_grid import Cells
-from shapewright.rendering.cameras import Camera, pack
-from shapewright.rendering.raster import draw_view
+from shapewright.rendering.visibility import AllRound
 from shapewright.shapes import Floats, Ints, Mesh, Transform
 
-Singles = NDArray[np.float32]
 SAMPLES = 4000
-_SIZE = 160
-_DISTANCE = 4.0
-_STEEPEST = 0.25  # cosine between a face and the view that still shows where it lies
+_SIZE, _RADIUS = 160, 0.87
+"""Pixels of the views that show what is visible, and the radius of what they show: of all of a normalised mesh."""
 _ROUNDS = 3
 _NEARBY = 0.05  # up to which distance is measured by cells, which are quicker than a tree
 _REACH = 1.0  # spacings around a point within which its tangent plane stands for the surface
-
-
-def _all_round() -> tuple[Camera, ...]:
-    """26 cameras: in front of the faces, edges and corners of a cube."""
-    places = [np.array(place) for place in product((-1, 0, 1), repeat=3) if any(place)]
-    return tuple(
-        Camera(
-            math.degrees(math.atan2(x, z)),
-            math.degrees(math.atan2(y, math.hypot(x, z))),
-            _DISTANCE,
-            math.degrees(2.0 * math.atan(0.87 / math.sqrt(_DISTANCE**2 - 0.87**2))),
-        )
-        for x, y, z in places
-    )
-
-
-_CAMERAS = pack(_all_round())
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,11 +47,11 @@ class Surface:
         mesh: normalised. Raises ValueError for a mesh without area, or one that no view shows.
         """
         drawn, shown = [], []
-        views = _depths(mesh)
+        views = AllRound.of(mesh, _SIZE, _RADIUS)
         for number in range(_ROUNDS):
             more = sample(mesh, count, seed + number)
             drawn.append(more)
-            shown.append(_seen(more.points, more.normals, _CAMERAS, views))
+            shown.append(views.shows(more.points, more.normals))
             if sum(int(seen.sum()) for seen in shown) >= count // 2:
                 break
         visible = np.concatenate(shown)
@@ -125,45 +103,3 @@ class Surface:
     def nearness(self, points: Floats, most: float) -> Floats:
         """The same, ``most`` where it is more: at a tenth of the time."""
         return self.cells.distance(points, _REACH * self.spacing, most)
-
-
-def _depths(mesh: Mesh) -> Singles:
-    """One over the distance along the view, (C, size, size), 0 where there is nothing."""
-    inverse = np.empty((len(_CAMERAS), _SIZE, _SIZE), dtype=np.float32)
-    shade, projected = np.empty((_SIZE, _SIZE), dtype=np.float32), np.empty_like(mesh.vertices)
-    for camera, view in zip(_CAMERAS, inverse, strict=True):
-        draw_view(mesh.vertices, mesh.faces, camera, projected, shade, view)
-    return inverse
-
-
-@njit(nogil=True, cache=True)
-def _seen(points: Floats, normals: Floats, cameras: Floats, views: Singles) -> NDArray[np.bool_]:
-    """Whether a view shows each point: nothing there is nearer to the camera by more than a pixel's slant."""
-    seen = np.zeros(len(points), np.bool_)
-    half = views.shape[1] / 2.0
-    last = views.shape[1] - 1
-    for n in range(len(points)):
-        for c in range(len(cameras)):
-            camera = cameras[c]
-            right, up, towards, length, cosine = 0.0, 0.0, 0.0, 0.0, 0.0
-            for axis in range(3):
-                place = points[n, axis]
-                right += camera[axis] * place
-                up += camera[3 + axis] * place
-                towards += camera[6 + axis] * place
-                ray = camera[9] * camera[6 + axis] - place
-                length += ray * ray
-                cosine += ray * normals[n, axis]
-            cosine = abs(cosine) / math.sqrt(length)
-            if cosine <= _STEEPEST:
-                continue
-            away = camera[9] - towards
-            scale = camera[10] / away * half
-            column = min(max(int(half + scale * right), 0), last)
-            row = min(max(int(half - scale * up), 0), last)
-            if views[c, row, column] > 0.0:
-                slant = math.sqrt(max(1.0 - cosine * cosine, 0.0)) / cosine
-                if away - 1.0 / views[c, row, column] < (0.25 + slant) / scale:
-                    seen[n] = True
-                    break
-    return seen

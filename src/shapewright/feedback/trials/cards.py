@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from PIL import Image
 
-from shapewright.rendering.cameras import THUMBNAIL, pack
-from shapewright.rendering.raster import draw_view
+from shapewright.rendering.cameras import THUMBNAIL
+from shapewright.rendering.raster import view
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.shapes import Floats, Mesh
 
@@ -63,13 +63,9 @@ def _picture(mesh: Mesh, marked: Floats | None, size: int) -> np.ndarray[tuple[i
 
 def _mask(mesh: Mesh, points: Floats, size: int) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
     """Pixels at points that can be seen, (size, size)."""
-    camera = pack([THUMBNAIL])[0]
-    shade, inverse = np.empty((2, size, size), dtype=np.float32)
-    draw_view(mesh.vertices, mesh.faces, camera, np.empty_like(mesh.vertices), shade, inverse)
-    right, up, towards = camera[:9].reshape(3, 3) @ points.T
-    away = camera[9] - towards
-    scale = camera[10] / away * size / 2.0
-    column, row = (size / 2.0 + scale * right).astype(int), (size / 2.0 - scale * up).astype(int)
+    _, inverse = view(mesh, THUMBNAIL, size)
+    across, down, away = THUMBNAIL.project(points, size)
+    column, row = across.astype(int), down.astype(int)
     mask = np.zeros((size, size), dtype=bool)
     for i in range(-_DOT, _DOT + 1):
         for j in range(-_DOT, _DOT + 1):

@@ -1,6 +1,6 @@
 import pytest
 
-from shapewright.comparison.depths import depth_difference
+from shapewright.comparison.views import depth_difference
 from shapewright.modelling.solids import box
 
 
