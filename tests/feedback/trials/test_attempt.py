@@ -11,8 +11,8 @@ from shapewright.feedback.trials.attempt import (
     nearest_starts,
     outcome_of,
     outcome_of_starts,
+    turned_to,
     with_borrowed_choices,
-    workers_for,
 )
 from shapewright.feedback.trials.outcome import Outcome
 from shapewright.judging.judge import Judge
@@ -37,6 +37,12 @@ def post(tmp_path):
 
 
 @pytest.fixture
+def crew(post):
+    with Workers(post, 1) as workers:
+        yield workers
+
+
+@pytest.fixture
 def judge():
     shapes = {"low": box((0.5, 0.5, 0.1)).mesh(), "tall": box((0.5, 3.0, 0.1)).mesh()}
     return Judge.of(sw.Collection.of(shapes), sw.Settings(workers=1))
@@ -53,45 +59,41 @@ def distances(outcome):
     return {row: outcome.distance(row) for row in outcome.counted}
 
 
-def test_a_trial_searches_each_reference_and_judges_it(post, judge):
-    with Workers(post, 1) as crew:
-        first = outcome_of(crew, {0: START, 1: START}, judge, LONG)
-        again = outcome_of(crew, {0: START, 1: START}, judge, LONG)
-        only = outcome_of(crew, {1: START}, judge, None)
+def test_a_trial_searches_each_reference_and_judges_it(judge, crew):
+    first = outcome_of(crew, {0: START, 1: START}, judge, LONG)
+    again = outcome_of(crew, {0: START, 1: START}, judge, LONG)
+    only = outcome_of(crew, {1: START}, judge, None)
     assert parameters(first) == parameters(again) and distances(first) == distances(again)
     assert first.compatible == (0,) and first.distance(1) < only.distance(1)
     assert parameters(only) == {1: START} and first.replicas[1].parameters["height"] > 0.95
     assert distances(only.joined(first)) == distances(first)
 
 
-def test_a_search_may_leave_some_scalars_as_they_are(post, judge):
+def test_a_search_may_leave_some_scalars_as_they_are(judge, crew):
     start = {"height": 0.3, "wide": True}
-    with workers_for(
-        POST.replace("0.1))", "depth))").replace("False)", "False, depth: Annotated[float, Range(0.05, 1.0)] = 0.3)"),
-        post,
-        judge,
-    ) as crew:
+    source = POST.replace("0.1))", "depth))").replace(
+        "False)", "False, depth: Annotated[float, Range(0.05, 1.0)] = 0.3)"
+    )
+    with turned_to(source, crew):
         found = outcome_of(crew, {0: start}, judge, LONG, only=["height"])
         both = outcome_of(crew, {0: start}, judge, LONG)
     assert found.replicas[0].parameters["depth"] == pytest.approx(0.3) and found.replicas[0].parameters["height"] > 0.35
     assert both.distance(0) <= found.distance(0)
 
 
-def test_a_search_keeps_a_choice_that_it_is_sure_of(post):
+def test_a_search_keeps_a_choice_that_it_is_sure_of(crew):
     deep = Judge.of(sw.Collection.of({"deep": box((0.5, 0.5, 0.2)).mesh()}), sw.Settings(workers=1))
-    with Workers(post, 1) as crew:
-        free = outcome_of(crew, {0: START}, deep, OTHER_CHOICES)
-        sure = outcome_of(crew, {0: START}, deep, OTHER_CHOICES, sure="wide")
+    free = outcome_of(crew, {0: START}, deep, OTHER_CHOICES)
+    sure = outcome_of(crew, {0: START}, deep, OTHER_CHOICES, sure="wide")
     assert free.replicas[0].parameters["wide"] is True and sure.replicas[0].parameters["wide"] is False
     assert free.distance(0) < sure.distance(0)
     assert distances(free.using(lambda values: not values["wide"])) == {}
     assert distances(sure.using(lambda values: not values["wide"])) == distances(sure)
 
 
-def test_the_nearest_candidate_is_where_a_search_begins(post, judge):
-    with Workers(post, 1) as crew:
-        candidates = {0: [START, {**START, "height": 0.5}], 1: [{**START, "height": 9.0}]}
-        starts = nearest_starts(crew, candidates, judge, dict.fromkeys(candidates, 1))
+def test_the_nearest_candidate_is_where_a_search_begins(post, judge, crew):
+    candidates = {0: [START, {**START, "height": 0.5}], 1: [{**START, "height": 9.0}]}
+    starts = nearest_starts(crew, candidates, judge, dict.fromkeys(candidates, 1))
     assert starts[0].parameters["height"] == 0.5 and starts[1].parameters["height"] == 1.0
     assert starts[0].cost < 0.18 * 15_000 < starts[1].cost
     outcome = outcome_of_starts(starts, 0.18)
@@ -101,25 +103,24 @@ def test_the_nearest_candidate_is_where_a_search_begins(post, judge):
     }
 
 
-def test_a_changed_procedure_lives_as_long_as_the_trial(post, judge):
-    with workers_for(POST.replace("1.0)]", "4.0)]"), post, judge) as crew:
+def test_a_changed_procedure_lives_as_long_as_the_trial(judge, crew):
+    with turned_to(POST.replace("1.0)]", "4.0)]"), crew):
         path = crew.procedure.path
         found = outcome_of(crew, {1: START}, judge, LONG)
         assert found.compatible == (1,) and found.replicas[1].parameters["height"] > 1.5 and path.exists()
     assert not path.exists()
-    with pytest.raises(ProcedureError), workers_for("nothing here", post, judge):
+    with pytest.raises(ProcedureError), turned_to("nothing here", crew):
         pass
 
 
-def test_what_was_built_before_stays_as_it_was(post, judge):
+def test_what_was_built_before_stays_as_it_was(post, crew):
     known = [Replica(0, START, post(**START), 0.1)]
-    with Workers(post, 1) as crew:
-        assert builds_the_same(crew, known)
-    with workers_for(POST.replace("0.1))", "0.15))"), post, judge) as crew:
+    assert builds_the_same(crew, known)
+    with turned_to(POST.replace("0.1))", "0.15))"), crew):
         assert not builds_the_same(crew, known)
-    with workers_for(POST.replace("return box", "return box((0.1, height / 2, 0.05)) | box"), post, judge) as crew:
+    with turned_to(POST.replace("return box", "return box((0.1, height / 2, 0.05)) | box"), crew):
         assert builds_the_same(crew, known)
-    with workers_for(POST.replace("return box", "raise ValueError; return box"), post, judge) as crew:
+    with turned_to(POST.replace("return box", "raise ValueError; return box"), crew):
         assert not builds_the_same(crew, known)
 
 
@@ -128,10 +129,10 @@ CHOICE = POST.replace("wide: bool = False", "wide: bool = False, round: bool = F
 )
 
 
-def test_references_lend_each_other_their_choices(post):
+def test_references_lend_each_other_their_choices(crew):
     shapes = {f"column{height}": cylinder((0.5, height, 0.5)).mesh() for height in (0.4, 0.9)}
     judge = Judge.of(sw.Collection.of(shapes), sw.Settings(workers=1))
-    with workers_for(CHOICE.replace("import box", "import box, cylinder"), post, judge) as crew:
+    with turned_to(CHOICE.replace("import box", "import box, cylinder"), crew):
         starts = {0: {**START, "round": True}, 1: {**START, "round": False}}
         alone = outcome_of(crew, starts, judge, BRIEF)
         far = Replica(1, alone.replicas[1].parameters, alone.replicas[1].mesh, 0.5)
@@ -144,12 +145,12 @@ def test_references_lend_each_other_their_choices(post):
     assert together.replicas[1].parameters["round"] and together.replicas[0].parameters == alone.replicas[0].parameters
 
 
-def test_a_candidate_that_falls_apart_gives_way_to_one_that_stands(post, judge):
+def test_a_candidate_that_falls_apart_gives_way_to_one_that_stands(judge, crew):
     source = POST.replace("return box", "lower = box((0.5, 0.2, 0.1), at=(0, -3, 0))\n    return lower | box").replace(
         "0.2 if wide else 0.1))", "0.1), at=(0, 0, 0) if wide else (0, -2.9 + height / 2, 0))"
     )
     apart, whole = {"height": 0.8, "wide": True}, {"height": 0.4, "wide": False}
-    with workers_for(source, post, judge) as crew:
+    with turned_to(source, crew):
         several = nearest_starts(crew, {1: [apart, whole]}, judge, {1: 1})
         (cheapest,) = nearest_starts(crew, {1: [apart]}, judge, {1: 1}).values()
         falling = nearest_starts(crew, {1: [apart, whole]}, judge, {1: 2})

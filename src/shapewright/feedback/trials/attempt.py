@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from shapewright.building import Limits, Workers
+from shapewright.building import Workers
 from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.comparison.surfaces import area
 from shapewright.feedback.case import Replica
@@ -19,7 +19,7 @@ from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.trials.outcome import Outcome
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
-from shapewright.procedures import Procedure, load_procedure
+from shapewright.procedures import load_procedure
 from shapewright.search.budgets import Budget, Round
 from shapewright.search.objective import Measure
 from shapewright.search.search import refine
@@ -57,22 +57,17 @@ class Start:
 
 
 @contextmanager
-def workers_for(source: str, procedure: Procedure, judge: Judge, crew: Workers | None = None) -> Iterator[Workers]:
-    """Workers for the procedure of the same name in a changed source, loaded from a folder that is removed at the end.
+def turned_to(source: str, crew: Workers) -> Iterator[Workers]:
+    """Workers that turn to the procedure of the same name in a changed source.
 
-    crew: workers that turn to it, by default new ones. Raises ProcedureError when the source does not load.
+    It is loaded from a folder that is removed at the end. Raises ProcedureError when the source does not load.
     """
-    settings = judge.settings
+    before = crew.procedure
     with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
-        path = Path(folder) / (procedure.path.name if procedure.path else f"{procedure.name}.py")
+        path = Path(folder) / (before.path.name if before.path else f"{before.name}.py")
         path.write_text(source, encoding="utf-8")
-        new = load_procedure(f"{path}:{procedure.name}")
-        if crew:
-            crew.turn_to(new)
-            yield crew
-            return
-        with Workers(new, settings.workers, Limits(settings.shape_seconds, settings.shape_memory_mb)) as crew:
-            yield crew
+        crew.turn_to(load_procedure(f"{path}:{before.name}"))
+        yield crew
 
 
 def nearest_starts(
@@ -112,14 +107,15 @@ def outcome_of(
     starts: Mapping[int, Parameters],
     judge: Judge,
     budget: Budget | None,
-    seed: int = 0,
+    turn: int = 0,
     enough: float = ENOUGH,
     only: Collection[str] | None = None,
     sure: str | None = None,
 ) -> Outcome:
     """Search for each reference (by row) from the parameters given, and judge the replicas.
 
-    budget: None to judge the parameters themselves, moved into the procedure's Ranges. enough: of the threshold, at
+    budget: None to judge the parameters themselves, moved into the procedure's Ranges. turn: number of the search for
+    the same references, for other random points. enough: of the threshold, at
     which a search ends. only: names of the scalars that it may change, by default all. sure: the name of a choice that
     it keeps wherever it tries others.
     """
@@ -127,7 +123,9 @@ def outcome_of(
     vectors = [space.carry(values) for values in starts.values()]
     if budget and rows:
         goal = enough * judge.goal
-        vectors = _refined(space, crew, judge.measure(rows), vectors, budget, goal, seed, only, sure)
+        vectors = _refined(
+            space, crew, judge.measure(rows), vectors, budget, goal, judge.settings.seed + turn, only, sure
+        )
     builds = crew.build(vectors)
     replicas = [
         Replica(row, build.parameters, build.shape, float(distance))

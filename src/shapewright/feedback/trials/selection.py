@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from shapewright.building import Limits, Workers
+from shapewright.building import Workers
 from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.needed_ranges import narrowed
@@ -27,13 +27,14 @@ from shapewright.feedback.trials.attempt import (
     nearest_starts,
     outcome_of,
     outcome_of_starts,
+    turned_to,
     with_borrowed_choices,
-    workers_for,
 )
 from shapewright.feedback.trials.outcome import PROMISING, Outcome
 from shapewright.feedback.writing.source import EditError
+from shapewright.fitting.learning import limits_of
 from shapewright.judging.judge import Judge
-from shapewright.parameters import Parameters
+from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.procedures import Procedure, ProcedureError
 from shapewright.search.budgets import Budget
 
@@ -74,11 +75,31 @@ class Change:
 
 @dataclass(frozen=True, eq=False)
 class _Prospect:
-    """A proposal with starts for some misfits, and how many references it may make compatible."""
+    """A proposal with starts for some misfits, by row, and how many references it may make compatible."""
 
     proposal: Proposal
     starts: Mapping[int, Start]
     promise: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Trials:
+    """What proposals are tried with.
+
+    Attributes:
+        space: of the procedure without any change.
+        crew: workers that turn to one changed procedure after the other.
+        misfits: the references that need a change.
+        judge: measures replicas.
+    """
+
+    space: ParameterSpace
+    crew: Workers
+    misfits: Sequence[Misfit]
+    judge: Judge
+
+    def outcome_of_starts(self, starts: Mapping[int, Start]) -> Outcome:
+        return outcome_of_starts(starts, self.judge.settings.threshold)
 
 
 def selected(
@@ -95,17 +116,15 @@ def selected(
     ideas: the likeliest first. known: replicas that no change may alter. evaluations: shapes built for searches, about.
     limit: of the number of changes. None only repeats part of what another does.
     """
-    settings = judge.settings
-    with Workers(procedure, settings.workers, Limits(settings.shape_seconds, settings.shape_memory_mb)) as crew:
-        prospects = [p for idea in ideas[:_BUILT] for p in _built(crew, procedure, idea, misfits, judge, known)]
+    with Workers(procedure, judge.settings.workers, limits_of(judge.settings)) as crew:
+        trials = _Trials(procedure.space, crew, misfits, judge)
+        prospects = [prospect for idea in ideas[:_BUILT] for prospect in _built(trials, idea, known)]
         leading = sorted(prospects, key=lambda prospect: -prospect.promise)
         # What a longer Range brings only a search tells: half of the places are theirs.
         longer = [prospect for prospect in leading if prospect.proposal.rule is None][: _LEADING // 2]
         leading = [*longer, *(prospect for prospect in leading if prospect not in longer)]
         share = int(_SHARES[0] * evaluations / min(_LEADING, max(len(leading), 1)))
-        leading[:_LEADING] = [
-            _briefly_searched(crew, procedure, prospect, misfits, judge, share) for prospect in leading[:_LEADING]
-        ]
+        leading[:_LEADING] = [_briefly_searched(trials, prospect, share) for prospect in leading[:_LEADING]]
         leading = sorted(leading, key=lambda prospect: -prospect.promise)
         changes, left = [], (1.0 - _SHARES[0]) * evaluations
         for prospect in leading[:_CONFIRMED]:
@@ -113,31 +132,24 @@ def selected(
                 break
             allowed, idea = int(_SHARES[1] * left), prospect.proposal
             left -= allowed
-            outcome = _outcome_for_all(crew, procedure, prospect, misfits, judge, allowed)
+            outcome = _outcome_for_all(trials, prospect, allowed)
             if outcome.compatible:
                 values = [outcome.replicas[row].parameters for row in outcome.compatible]
                 changes.append(Change(idea, narrowed(idea, procedure.space, values), "", outcome))
-        return _worth_showing(crew, procedure, changes, judge, limit)
+        return _worth_showing(trials, changes, limit)
 
 
-def _built(
-    crew: Workers,
-    procedure: Procedure,
-    idea: Proposal,
-    misfits: Sequence[Misfit],
-    judge: Judge,
-    known: Sequence[Replica],
-) -> Iterator[_Prospect]:
+def _built(trials: _Trials, idea: Proposal, known: Sequence[Replica]) -> Iterator[_Prospect]:
     """The proposal with shapes built for some misfits, half of them those it is for; nothing if it is of no use."""
+    misfits = trials.misfits
     groups = [[m for m in misfits if (m.row in idea.starts) == own] for own in (True, False)]
     some = [m for group in groups for m in _spread(group, _SAMPLED - min(_SAMPLED // 2, len(misfits) - len(group)))]
     try:
-        with workers_for(idea.write(idea.ranges), procedure, judge, crew) as new:
-            if builds_the_same(new, known):
+        with turned_to(idea.write(idea.ranges), trials.crew) as crew:
+            if builds_the_same(crew, known):
                 pieces = {m.row: m.pieces for m in some}
-                starts = nearest_starts(new, {m.row: idea.candidates(m) for m in some}, judge, pieces)
-                whole = outcome_of_starts(starts, judge.settings.threshold).whole(pieces)
-                starts = {row: starts[row] for row in whole.counted}
+                starts = nearest_starts(crew, {m.row: idea.candidates(m) for m in some}, trials.judge, pieces)
+                starts = {row: starts[row] for row in trials.outcome_of_starts(starts).whole(pieces).counted}
                 yield _Prospect(idea, starts, _promise(idea, misfits, {m.row: _way(m, starts) for m in some}))
     except (EditError, ProcedureError):
         return
@@ -161,20 +173,18 @@ def _promise(idea: Proposal, misfits: Sequence[Misfit], ways: Mapping[int, float
     return promise
 
 
-def _briefly_searched(
-    crew: Workers, procedure: Procedure, prospect: _Prospect, misfits: Sequence[Misfit], judge: Judge, evaluations: int
-) -> _Prospect:
+def _briefly_searched(trials: _Trials, prospect: _Prospect, evaluations: int) -> _Prospect:
     """The same after a short search for the nearest of the misfits that it is for, which then stand for the others."""
-    idea, starts = prospect.proposal, prospect.starts
+    idea, starts, misfits = prospect.proposal, prospect.starts, trials.misfits
     ways = {m.row: _way(m, starts) for m in misfits if m.row in starts}
-    budget = BRIEF.within(max(evaluations / _SEARCHED, _LEAST), int(procedure.space.scalars.sum()))
+    budget = BRIEF.within(max(evaluations / _SEARCHED, _LEAST), int(trials.space.scalars.sum()))
     near = sorted((row for row in ways if row in idea.starts and ways[row] < 1.0), key=lambda row: starts[row].cost)
     near = near[: min(_SEARCHED, evaluations // _LEAST)]
     if not near:
         return prospect
-    with workers_for(idea.write(idea.ranges), procedure, judge, crew) as new:
+    with turned_to(idea.write(idea.ranges), trials.crew) as crew:
         begin = {row: starts[row].parameters for row in near}
-        outcome = outcome_of(new, begin, judge, budget, judge.settings.seed, sure=idea.flag).using(idea.uses)
+        outcome = outcome_of(crew, begin, trials.judge, budget, sure=idea.flag).using(idea.uses)
     better = {
         row: Start(replica.parameters, replica.mesh, replica.distance * RAW_SCALE)
         for row, replica in outcome.replicas.items()
@@ -187,17 +197,15 @@ def _briefly_searched(
     return replace(prospect, starts=starts, promise=_promise(idea, misfits, after))
 
 
-def _outcome_for_all(
-    crew: Workers, procedure: Procedure, prospect: _Prospect, misfits: Sequence[Misfit], judge: Judge, evaluations: int
-) -> Outcome:
+def _outcome_for_all(trials: _Trials, prospect: _Prospect, evaluations: int) -> Outcome:
     """What the proposal gives for all misfits: before a search, with the choices that suit others, and after one."""
-    idea, pieces = prospect.proposal, {m.row: m.pieces for m in misfits}
-    with workers_for(idea.write(idea.ranges), procedure, judge, crew) as new:
-        space, scalars = new.procedure.space, int(new.procedure.space.scalars.sum())
-        others = {m.row: idea.candidates(m) for m in misfits if m.row not in prospect.starts}
-        starts = {**prospect.starts, **nearest_starts(new, others, judge, pieces)}
-        outcome = outcome_of_starts(starts, judge.settings.threshold).whole(pieces)
-        fresh = [name for name in space.names if name not in procedure.space.names]
+    idea, judge, pieces = prospect.proposal, trials.judge, {m.row: m.pieces for m in trials.misfits}
+    with turned_to(idea.write(idea.ranges), trials.crew) as crew:
+        space = crew.procedure.space
+        others = {m.row: idea.candidates(m) for m in trials.misfits if m.row not in prospect.starts}
+        starts = {**prospect.starts, **nearest_starts(crew, others, judge, pieces)}
+        outcome = trials.outcome_of_starts(starts).whole(pieces)
+        fresh = [name for name in space.names if name not in trials.space.names]
         left, before = evaluations, 0
         turns: list[tuple[Budget, Sequence[str] | None, float]] = [
             (FEW_SCALARS, fresh, 1.0),
@@ -212,15 +220,16 @@ def _outcome_for_all(
                 known = {row: replica.parameters for row, replica in outcome.replicas.items()}
                 borrowed = _afforded(with_borrowed_choices(space, outcome, known), int(_BORROWED * left))
                 left -= sum(len(several) for several in borrowed.values())
-                lent = outcome_of_starts(nearest_starts(new, borrowed, judge, pieces), outcome.threshold)
+                lent = trials.outcome_of_starts(nearest_starts(crew, borrowed, judge, pieces))
                 outcome = outcome.joined(lent.using(idea.uses)).whole(pieces)
-            free, far = scalars if only is None else len(only), PROMISING if idea.rule else _FAR
-            rows = _worth_a_search(outcome, aim, far)[: left // min(budget.evaluations(free), _LEAST)]
+            free = int(space.scalars.sum()) if only is None else len(only)
+            rows = _worth_a_search(outcome, aim, PROMISING if idea.rule else _FAR)
+            rows = rows[: left // min(budget.evaluations(free), _LEAST)]
             if rows and free:
                 within = budget.within(left / len(rows), free)
                 left -= len(rows) * within.evaluations(free)
-                begin, seed = {row: outcome.replicas[row].parameters for row in rows}, judge.settings.seed + turn
-                searched = outcome_of(new, begin, judge, within, seed, ENOUGH * aim, only, idea.flag)
+                begin = {row: outcome.replicas[row].parameters for row in rows}
+                searched = outcome_of(crew, begin, judge, within, turn, ENOUGH * aim, only, idea.flag)
                 outcome = outcome.joined(searched.using(idea.uses)).whole(pieces)
     return outcome
 
@@ -237,15 +246,13 @@ def _afforded(candidates: Mapping[int, list[Parameters]], most: int) -> dict[int
     return {row: several[:share] for row, several in list(candidates.items())[:most]}
 
 
-def _worth_showing(
-    crew: Workers, procedure: Procedure, changes: Sequence[Change], judge: Judge, limit: int
-) -> list[Change]:
+def _worth_showing(trials: _Trials, changes: Sequence[Change], limit: int) -> list[Change]:
     """Those to show, with the Ranges that their references need, judged with these."""
     needed = [change for change in changes if not any(_simpler(other, change) for other in changes)]
     shown: list[Change] = []
     for change in _ordered(needed):
         if len(shown) < limit and not any(_repeats(change, other) for other in shown):
-            shown += _final(crew, procedure, change, judge)
+            shown += _final(trials, change)
     return _ordered(shown)
 
 
@@ -264,17 +271,16 @@ def _simpler(one: Change, other: Change) -> bool:
     return fewer and len(one.outcome.compatible) >= len(other.outcome.compatible)
 
 
-def _final(crew: Workers, procedure: Procedure, change: Change, judge: Judge) -> Iterator[Change]:
+def _final(trials: _Trials, change: Change) -> Iterator[Change]:
     """The same with its final source, and what that really gives; nothing if that is nothing."""
-    idea = change.proposal
+    idea, judge = change.proposal, trials.judge
     made = {row: change.outcome.replicas[row].parameters for row in change.outcome.compatible}
     try:
         source = idea.write(change.ranges)
-        with workers_for(source, procedure, judge, crew) as new:
-            outcome = outcome_of(new, made, judge, None, judge.settings.seed)
+        with turned_to(source, trials.crew) as crew:
+            outcome = outcome_of(crew, made, judge, None)
             lost = {row: made[row] for row in made if row not in outcome.compatible}
-            again = outcome_of(new, lost, judge, LONG, judge.settings.seed, sure=idea.flag)
-            outcome = outcome.joined(again.using(idea.uses))
+            outcome = outcome.joined(outcome_of(crew, lost, judge, LONG, sure=idea.flag).using(idea.uses))
     except (EditError, ProcedureError):
         return
     if outcome.compatible:
