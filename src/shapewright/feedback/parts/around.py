@@ -11,25 +11,27 @@ from shapewright.feedback.parts.pieces import Piece
 from shapewright.shapes import Floats
 
 COUNTS = (3, 4, 5, 6, 8)
-_LAYERS = 8
-_FEWEST = 40
+"""Bars that are tried."""
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
+_LAYERS = 8  # heights above and below which points are left out
+_FEWEST = 40  # points that tell bars
 _INNER = 0.4  # of the reach, from which on bars are apart
-_RINGS = 4
+_RINGS = 4  # around the axis, that bars reach through
 _FILLED = 0.35  # of its share of the points: what each bar and each ring around the axis has at least
 _NARROW = 0.36  # mean angle off the nearest bar, of half that between bars, at most; 0.5 where points are all round
 _ROUND = 0.12  # difference of width and depth up to which they are equal
-_SHAPES = (0.35, 2.8)
+_SHAPES = (0.35, 2.8)  # ratio of depth to width
 _WITHIN = 0.75  # of a bar's breadth: how far off its middle points are explained by it
 
-_Found = tuple[float, Piece, NDArray[np.bool_]]
+_Bars = tuple[float, Piece, NDArray[np.bool_]]
 
 
 def turns(count: int) -> list[float]:
     """Degrees by which a bar along x is turned for so many of them to be symmetric, in all ways that differ."""
-    found: dict[float, float] = {}
+    ways: dict[float, float] = {}
     for turn in (-90.0, 90.0, 0.0, 180.0, 180.0 / count):
-        found.setdefault(round(turn % (360.0 / count), 6), turn)
-    return list(found.values())
+        ways.setdefault(round(turn % (360.0 / count), 6), turn)
+    return list(ways.values())
 
 
 def spokes(places: Floats) -> tuple[Piece, NDArray[np.bool_]] | None:
@@ -37,10 +39,10 @@ def spokes(places: Floats) -> tuple[Piece, NDArray[np.bool_]] | None:
 
     None where there are none. Points above and below the bars are left out as far as horizontal cuts can.
     """
-    found = [bars for layer in _layers(places[:, 1]) if (bars := _bars(places, layer)) is not None]
-    if not found:
+    several = [bars for layer in _layers(places[:, 1]) if (bars := _bars(places, layer)) is not None]
+    if not several:
         return None
-    _, piece, explained = min(found, key=lambda each: (-round(float(each[2].mean()), 1), each[0]))
+    _, piece, explained = min(several, key=lambda bars: (-round(float(bars[2].mean()), 1), bars[0]))
     return piece, explained
 
 
@@ -52,23 +54,23 @@ def _layers(height: Floats) -> Iterator[NDArray[np.bool_]]:
         yield height > cut
 
 
-def _bars(places: Floats, layer: NDArray[np.bool_]) -> _Found | None:
+def _bars(places: Floats, layer: NDArray[np.bool_]) -> _Bars | None:
     """How far a layer's points are off the bars that suit best, these bars, and which points they explain."""
     if layer.sum() < _FEWEST:
         return None
     extent = np.abs(places[layer][:, [0, 2]]).max(axis=0)
-    found = []
+    several = []
     for count in COUNTS:
         for turn in turns(count):
             angles = np.radians(turn + 360.0 / count * np.arange(count))
             reach = extent / np.abs(np.stack([np.cos(angles), np.sin(angles)])).max(axis=1)
             if _SHAPES[0] < reach[1] / reach[0] < _SHAPES[1]:
                 equal = abs(np.log(reach[1] / reach[0])) < _ROUND
-                found.append(_off(places, layer, np.full(2, reach.mean()) if equal else reach, count, turn))
-    return min((each for each in found if each), key=lambda each: each[0], default=None)
+                several.append(_off(places, layer, np.full(2, reach.mean()) if equal else reach, count, turn))
+    return min((bars for bars in several if bars), key=lambda bars: bars[0], default=None)
 
 
-def _off(places: Floats, layer: NDArray[np.bool_], reach: Floats, count: int, turn: float) -> _Found | None:
+def _off(places: Floats, layer: NDArray[np.bool_], reach: Floats, count: int, turn: float) -> _Bars | None:
     """The same for so many bars that reach to the ellipse with these half axes."""
     x, z = places[:, 0] / reach[0], -places[:, 2] / reach[1]  # a turn about y takes x to -z
     distance, step = np.hypot(x, z), 2.0 * np.pi / count

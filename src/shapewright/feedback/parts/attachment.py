@@ -12,7 +12,8 @@ from shapewright.feedback.surfaces.connection import connected
 from shapewright.feedback.surfaces.visible import Surface
 from shapewright.shapes import Floats, Mesh
 
-_POINTS = 1000
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
+_POINTS, _FEW = 1000, 300  # of what stands; of a component
 _REACH = 0.05  # of the whole's largest extent: between a piece's box and what it hangs on to
 _GAP = 0.02  # of the same, between components: nobody sees it, and an author closes it
 
@@ -45,7 +46,7 @@ def separate(mesh: Mesh) -> int:
     parts = _components(mesh)
     if len(parts) <= 1:
         return 1
-    surfaces = [Surface.roughly(part, 300) for part in parts]
+    surfaces = [Surface.roughly(part, _FEW) for part in parts]
     first, second = np.triu_indices(len(parts), 1)
     near = [_apart(parts[i], surfaces[i], parts[j], surfaces[j]) < _GAP for i, j in zip(first, second, strict=True)]
     return connected(len(parts), first[near], second[near])[0]

@@ -16,12 +16,23 @@ from shapewright.shapes import Floats
 
 MOST = 6
 """Pieces at most, the largest ones."""
-_SYMMETRIC = 0.8  # share of the points that have a mirror image, from which on a set is symmetric
-_CUTS = 24
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
+_SYMMETRIC, _NEAR = (
+    0.8,
+    0.035,
+)  # share of the points that have a mirror image, so near, from which on a set is symmetric
+_CUTS = 24  # places along an axis where a box may be halved
 _WORTH = 0.62  # volume of two boxes over that of one around them, below which they are two
 _PAD = 0.012  # added to every side of a box, in units of the whole: flat boxes have a volume
-_FEWEST = 10
-_EQUAL = 0.03
+_FEWEST = 10  # points of a piece
+_EQUAL = 0.03  # difference of sizes and places, in units of the whole, that are one
+_LINKS, _LINK, _SHORTEST = (
+    4,
+    3.0,
+    0.015,
+)  # neighbours lie within so many median distances of the fourth, at least so far
+_ROW = 3  # pieces of a row
+_CLEAR, _GAP = 1.1, 0.02  # steps of a row in units of a piece, and the gap as a part of the row, at least
 
 
 def decompose(points: Floats, middle: tuple[float, float], unit: float, radial: bool = False) -> tuple[Piece, ...]:
@@ -37,9 +48,9 @@ def decompose(points: Floats, middle: tuple[float, float], unit: float, radial: 
     places = (points - centre) / unit
     first: list[Piece] = []
     if radial:
-        if (found := spokes(places)) is None:
+        if (around := spokes(places)) is None:
             return ()
-        bars, explained = found
+        bars, explained = around
         first = [replace(bars, low=bars.low * unit + centre, high=bars.high * unit + centre, middle=middle)]
         places = places[~explained]
         if len(places) < _FEWEST:
@@ -58,13 +69,13 @@ def _symmetric(places: Floats, axis: int) -> bool:
     image = places.copy()
     image[:, axis] *= -1.0
     distance, _ = cKDTree(places).query(image)
-    return bool((distance < 0.035).mean() > _SYMMETRIC)
+    return bool((distance < _NEAR).mean() > _SYMMETRIC)
 
 
 def _connected(places: Floats) -> list[NDArray[np.intp]]:
     """Rows of the points of each connected group that is large enough."""
-    nearest, _ = cKDTree(places).query(places, k=min(4, len(places)))
-    reach = max(3.0 * float(np.median(nearest[:, -1])), 0.015)
+    nearest, _ = cKDTree(places).query(places, k=min(_LINKS, len(places)))
+    reach = max(_LINK * float(np.median(nearest[:, -1])), _SHORTEST)
     count, component = connected_points(places, reach)
     groups = [np.flatnonzero(component == number) for number in range(count)]
     return [group for group in groups if len(group) >= _FEWEST]
@@ -74,7 +85,7 @@ def _split(places: Floats, most: int) -> list[tuple[Floats, Floats]]:
     """Boxes (low, high) around points, halved along the axes wherever that leaves out much empty space."""
     low, high = places.min(axis=0), places.max(axis=0)
     whole = _volume(low, high)
-    best, found = _WORTH, None
+    best, halves = _WORTH, None
     for axis in range(3) if most > 1 and len(places) >= 2 * _FEWEST else ():
         order = np.argsort(places[:, axis])
         ordered = places[order]
@@ -87,10 +98,10 @@ def _split(places: Floats, most: int) -> list[tuple[Floats, Floats]]:
             if _FEWEST <= k <= len(ordered) - _FEWEST:
                 volume = _volume(before_low[k - 1], before_high[k - 1]) + _volume(behind_low[k], behind_high[k])
                 if volume / whole < best:
-                    best, found = volume / whole, (ordered[:k], ordered[k:])
-    if found is None:
+                    best, halves = volume / whole, (ordered[:k], ordered[k:])
+    if halves is None:
         return [(low, high)]
-    first, second = found
+    first, second = halves
     return [*_split(first, most - 1), *_split(second, most - 1)]
 
 
@@ -128,12 +139,12 @@ def _rows(pieces: Sequence[Piece], unit: float) -> list[Piece]:
             ]
             places = np.sort([copy.centre[axis] for copy in row])
             steps = np.diff(places)
-            if len(row) < 3 or np.ptp(steps) > 2 * _EQUAL * unit or steps.min() < 1.1 * first.size[axis]:
+            if len(row) < _ROW or np.ptp(steps) > 2 * _EQUAL * unit or steps.min() < _CLEAR * first.size[axis]:
                 continue
             low = np.min([copy.low for copy in row], axis=0)
             high = np.max([copy.high for copy in row], axis=0)
             gap = float(steps.mean() - np.mean([copy.size[axis] for copy in row])) / float(high[axis] - low[axis])
-            made = Piece(kinds[axis], low, high, middle=first.middle, count=len(row), gap=max(gap, 0.02))
+            made = Piece(kinds[axis], low, high, middle=first.middle, count=len(row), gap=max(gap, _GAP))
             inside = {id(copy) for copy in row}
             rest = [p for p, own in zip(pieces, copies_of, strict=True) if not inside & {id(copy) for copy in own}]
             return [made, *_rows(rest, unit)]

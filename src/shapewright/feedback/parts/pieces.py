@@ -31,16 +31,24 @@ WIDER_TOP, WIDER_FOOT = 0.55, 0.55
 SPOKES: tuple[Kind, ...] = ("spokes", "sloping spokes")
 SLOPE = (0.4, 0.5)
 """Of sloping spokes: the height of their inner ends, of the whole; that of the outer ends, of the inner ones'."""
-_THIN, _LONG = 0.3, 2.5
+_THIN, _LONG = 0.3, 2.5  # of the longest side, that a thin one has at most; height over width of a post
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A primitive that fills the box from ``low`` to ``high``, (3,) each.
+    """A primitive that fills a box.
 
-    mirrored: whether it stands once more on the other side of ``middle`` along x and along z. count: of the slats or
-    spokes. gap: between slats, of the whole. breadth: of spokes, of the whole. turn: degrees from x to a spoke.
     Spokes are bars from the vertical axis of the box outwards to the ellipse that touches its sides.
+
+    Attributes:
+        kind: which primitive.
+        low, high: (3,), corners of the box.
+        mirrored: whether it stands once more on the other side of the middle, along x and along z.
+        middle: x and z of the planes about which it is mirrored.
+        count: of the slats or spokes.
+        gap: between slats, as a part of the whole.
+        breadth: of spokes, as a part of the whole.
+        turn: degrees from x to a spoke.
     """
 
     kind: Kind

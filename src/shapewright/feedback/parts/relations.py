@@ -18,7 +18,8 @@ INNER = "inner "
 """Before these, of pieces that stand on both sides: the box between the copies."""
 Frames = Mapping[str, Floats]
 
-_TOUCHING = 0.5
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
+_TOUCHING = 0.5  # share of the misfits whose pieces have to touch a side
 _AGREE = 0.5  # share of the misfits that have to agree
 _FLUSH, _TOUCH = 0.045, 0.07  # of the whole's largest extent: how near sides are that are one, or touch
 _LARGE = 1.3  # of a frame: it is no measure for what is larger
@@ -29,9 +30,15 @@ _THIN = 0.4  # of a piece's own size: sides further off are not its own, however
 
 @dataclass(frozen=True)
 class Along:
-    """A piece along one axis of a frame. size: "full" or "free"; place: how it stands in it. ends: where it reaches
-    from and to, as (frame, 0 for its low or 1 for its high side), when that is not the frame itself. unlike: share of
-    the misfits that do not agree with the place.
+    """A piece along one axis of a frame.
+
+    Attributes:
+        size: "full" or "free".
+        place: how it stands in the frame: "middle", "low", "high", "on", "under" or "free".
+        ratios: sizes in units of the frame, one a misfit.
+        offsets: places in units of the frame, one a misfit.
+        ends: where it reaches from and to, as (frame, 0 for its low or 1 for its high side); None for the frame itself.
+        unlike: share of the misfits that do not agree with the place.
     """
 
     size: str

@@ -11,12 +11,12 @@ _FLOOR, _TALL = 0.05, 0.15  # of the largest extent: how low a part that may lea
 
 def supports(replica: Mesh) -> tuple[str, ...]:
     """Labels of the parts that stand on the floor, and are more than feet: those that may lean."""
-    found = []
+    labels = []
     for label in replica.label_names:
         if (bounds := bounds_of(replica, label)) is not None:
             low, high = (bounds[:, 1] - replica.bounds[0, 1]) / replica.extent.max()
-            found += [label] if low < _FLOOR and high - low > _TALL else []
-    return tuple(found)
+            labels += [label] if low < _FLOOR and high - low > _TALL else []
+    return tuple(labels)
 
 
 def splayed(part: Mesh, factors: Floats) -> Mesh:
@@ -30,8 +30,8 @@ def splayed(part: Mesh, factors: Floats) -> Mesh:
 def with_splayed(replica: Mesh, label: str, factor: float) -> Mesh:
     """A replica with one labelled part splayed by the factor, as a soup."""
     assert replica.face_labels is not None
-    its = replica.face_labels == replica.label_names.index(label)
-    rest, part = Mesh(replica.vertices, replica.faces[~its]), Mesh(replica.vertices, replica.faces[its])
+    of_part = replica.face_labels == replica.label_names.index(label)
+    rest, part = Mesh(replica.vertices, replica.faces[~of_part]), Mesh(replica.vertices, replica.faces[of_part])
     leaning = splayed(part, np.array([factor, 1.0, factor]))
     return concatenate([rest, leaning]) if len(rest.faces) else leaning
 

@@ -15,15 +15,21 @@ _THIN = 0.01  # added to every side, so that flat sets of points have a volume
 
 
 @dataclass(frozen=True, eq=False)
-class Box:
-    """centre: (3,). size: (3,), along axes: (3, 3), whose rows are unit vectors, the first nearest to X and so on."""
+class OrientedBox:
+    """A box that may be turned.
+
+    Attributes:
+        centre: (3,).
+        size: (3,), along its axes.
+        axes: (3, 3), whose rows are unit vectors: the first nearest to X, and so on.
+    """
 
     centre: Floats
     size: Floats
     axes: Floats
 
 
-def fit_box(points: Floats) -> Box:
+def fit_box(points: Floats) -> OrientedBox:
     """The box around points (N, 3)."""
     upright, some = _along(points, np.eye(3)), points[:: max(1, len(points) // _ENOUGH)]
     turned = [_along(points, axes) for axes in [*_about_axes(some), _principal(some)]]
@@ -31,14 +37,14 @@ def fit_box(points: Floats) -> Box:
     return best if _volume(best) < _BETTER * _volume(upright) else upright
 
 
-def _volume(box: Box) -> float:
+def _volume(box: OrientedBox) -> float:
     return float(np.prod(box.size + _THIN))
 
 
-def _along(points: Floats, axes: Floats) -> Box:
+def _along(points: Floats, axes: Floats) -> OrientedBox:
     places = points @ axes.T
     low, high = places.min(axis=0), places.max(axis=0)
-    return Box((low + high) / 2.0 @ axes, high - low, axes)
+    return OrientedBox((low + high) / 2.0 @ axes, high - low, axes)
 
 
 def _principal(points: Floats) -> Floats:

@@ -12,13 +12,21 @@ from numpy.typing import NDArray
 from shapewright.shapes import Floats
 
 Ints = NDArray[np.int64]
-_SIDE = 0.08  # of a cell: about as far as anyone asks
+_SIDE = 0.08  # of a cell, least: a little more than the distances that are asked for
 _MOST = 32  # cells along an axis
 
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """points, normals: (N, 3), by cell. starts: (cells + 1,), the first point of each. shape: cells along each axis."""
+    """Points of a surface by cell.
+
+    Attributes:
+        points, normals: (N, 3).
+        starts: (cells + 1,), the first point of each cell.
+        low: (3,), the corner of the first cell.
+        side: of a cell.
+        shape: (3,), cells along each axis.
+    """
 
     points: Floats
     normals: Floats
@@ -41,9 +49,9 @@ class Cells:
 
         A plane stands for the surface up to ``spacing`` from its point.
         """
-        found = np.empty(len(points))
-        _measure(points, self.points, self.normals, self.starts, self.low, self.side, self.shape, spacing, most, found)
-        return found
+        away = np.empty(len(points))
+        _measure(points, self.points, self.normals, self.starts, self.low, self.side, self.shape, spacing, most, away)
+        return away
 
 
 @njit(nogil=True, cache=True)
@@ -76,7 +84,7 @@ def _measure(
     shape: Ints,
     spacing: float,
     most: float,
-    found: Floats,
+    away: Floats,
 ) -> None:
     """See ``Cells.distance``. A plane is nearer than its point by ``spacing`` at most: no point farther counts."""
     reach = most + spacing
@@ -97,10 +105,10 @@ def _measure(
                     square = x * x + y * y + z * z
                     if square < least:
                         least, nearest = square, m
-        found[n] = most
+        away[n] = most
         if nearest >= 0:
             above = 0.0
             for axis in range(3):
                 above += (asked[n, axis] - points[nearest, axis]) * normals[nearest, axis]
             aside = max(math.sqrt(max(least - above * above, 0.0)) - spacing, 0.0)
-            found[n] = min(math.hypot(above, aside), most)
+            away[n] = min(math.hypot(above, aside), most)
