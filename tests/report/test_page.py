@@ -13,8 +13,9 @@ import pytest
 from PIL import Image, ImageDraw
 
 from broken_disk import full_after, hidden, shown
+from shapewright.judging.paper import FAR
 from shapewright.report import write_report
-from shapewright.report.page import FAR, GREEN, RED, YELLOW, colour
+from shapewright.report.page import GREEN, RED, YELLOW, colour
 from shapewright.runs.changes import Move, compare
 from shapewright.runs.folder import RunError
 

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
+
+FAR = 2.5
+"""Thresholds from which on meshes have nothing in common: the paper's figures colour them red."""
 
 
 @dataclass(frozen=True)
@@ -20,10 +25,15 @@ class Metric:
     far: float
     criterion: str
 
+    @classmethod
+    def of_record(cls, record: Mapping[str, Any]) -> Metric:
+        """Of a run's record; the first versions compared meshes alone, and noted only the threshold."""
+        return cls(**record["metric"]) if "metric" in record else light_field_metric(record["threshold"])
+
 
 def light_field_metric(threshold: float) -> Metric:
     """The light-field distance of meshes (paper section 4.3)."""
-    return Metric("light-field distance", threshold, 2.5 * threshold, f"light-field distance at most {threshold:g}")
+    return Metric("light-field distance", threshold, FAR * threshold, f"light-field distance at most {threshold:g}")
 
 
 def fidelity_metric(least: float) -> Metric:

@@ -13,15 +13,14 @@ from urllib.parse import quote
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from PIL import Image
 
+from shapewright.judging.paper import FAR, Metric
 from shapewright.report.explained import badges, outlines, read_explanation
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import read_record
 from shapewright.storage import write_file
 
-# The paper's colours: green for a perfect replica, yellow at the threshold, red from FAR thresholds on, unless the
-# record's metric says where.
+# The paper's colours: green for a perfect replica, yellow at the threshold, red where the metric says far.
 GREEN, YELLOW, RED = (62, 166, 100), (247, 205, 70), (222, 74, 62)
-FAR = 2.5
 # Thumbnails are tinted by one of this many filters, not by a colour each.
 TINTS = 25
 
@@ -71,8 +70,8 @@ def colour(distance: float | None, threshold: float, far: float = FAR) -> str:
 def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] | None) -> dict[str, Any]:
     """What the template shows. A pair is known by its index in the order of the page."""
     threshold = record["threshold"]
-    metric = record.get("metric") or {"far": FAR * threshold, "criterion": f"distance at most {_value(threshold)}"}
-    far = metric["far"] / threshold
+    metric = Metric.of_record(record)
+    far = metric.far / threshold
     references = {reference["name"]: reference for reference in record["references"]}
 
     def by_distance(names: list[str]) -> list[str]:
@@ -101,7 +100,7 @@ def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] 
         "no_replica": all(references[name]["distance"] is None for name in ungrouped),
         "compatible": [index[name] for name in compatible],
         "strip": [index[name] for name in by_distance(list(references))],
-        "criterion": metric["criterion"],
+        "criterion": metric.criterion if "metric" in record else f"distance at most {_value(threshold)}",
         "mean_iou": _mean([references[name]["iou"] for name in compatible]),
         "highest": max([min(1.5, far) * threshold, *(pair["distance"] or 0.0 for pair in pairs)]),
         "frame": _frame([picture for pair in pairs for picture in pair["pictures"]]),

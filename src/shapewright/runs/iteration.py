@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from shapewright.comparison.grouping import Group
-from shapewright.judging.paper import Metric, light_field_metric
+from shapewright.judging.paper import Metric
 from shapewright.prediction.predictor import Predictor
 from shapewright.rendering.thumbnails import thumbnails
 from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
@@ -129,7 +129,7 @@ class Iteration:
         groups = tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"])
         return cls(
             results=tuple(from_record(entry, read_replica(folder, entry)) for entry in record["references"]),
-            metric=Metric(**record["metric"]) if "metric" in record else light_field_metric(settings.threshold),
+            metric=Metric.of_record(record),
             groups=groups,
             settings=settings,
             seconds=record["seconds"],

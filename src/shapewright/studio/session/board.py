@@ -141,7 +141,7 @@ def lay_out(
         tiles,
         tuple(_groups(record["groups"], slugs)) if record else (),
         folder.name if folder else None,
-        metric_of(record) if record else metric or light_field_metric(Settings.threshold),
+        Metric.of_record(record) if record else metric or light_field_metric(Settings.threshold),
         skipped,
     )
 
@@ -149,11 +149,6 @@ def lay_out(
 def tint(distance: float | None, metric: Metric) -> str | None:
     """The colour of a distance, None for none."""
     return None if distance is None else colour(distance, metric.threshold, metric.far / metric.threshold)
-
-
-def metric_of(record: Record) -> Metric:
-    """What a run measured by."""
-    return Metric(**record["metric"]) if "metric" in record else light_field_metric(record["threshold"])
 
 
 def _filled(tile: Tile, entry: Record, pictures: Pictures, folder: Path) -> Tile:

@@ -8,9 +8,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from shapewright.judging.paper import Metric
 from shapewright.runs.changes import Move, compare
 from shapewright.runs.folder import EXPLANATION, RECORD, RunError, read_record
-from shapewright.studio.session.board import metric_of, tint
+from shapewright.studio.session.board import tint
 
 Address = Callable[[Path], str | None]
 
@@ -67,8 +68,8 @@ def comparison(before: Path, after: Path, slugs: Mapping[str, str], address: Add
             "slug": slugs.get(move.name),
             "before": move.before,
             "after": move.after,
-            "colour_before": tint(move.before, metric_of(old)),
-            "colour_after": tint(move.after, metric_of(new)),
+            "colour_before": tint(move.before, Metric.of_record(old)),
+            "colour_after": tint(move.after, Metric.of_record(new)),
             "reference": picture(after, now, "reference"),
             "replica_before": picture(before, then, "replica"),
             "replica_after": picture(after, now, "replica"),
