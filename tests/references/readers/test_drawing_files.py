@@ -73,6 +73,12 @@ class TestPng:
         drawing, _ = read_png(png((disc * 255).astype(np.uint8)))
         assert overlap(drawing.geometry, shapely.Point(31.3, -30.8).buffer(20.0, quad_segs=64)) > 0.985
 
+    def test_a_slanted_line_as_wide_as_a_pixel_stays_whole(self):
+        y, x = np.mgrid[:64, :64]
+        away = np.abs((x - 5) * np.sin(0.6) - (y - 5) * np.cos(0.6))
+        drawing, _ = read_png(png((np.clip(away, 0, 1) * 255).astype(np.uint8)))
+        assert len(shapely.get_parts(drawing.geometry)) == 1
+
     def test_large_pictures_are_reduced(self):
         drawing, _ = read_png(png(np.kron(bench(), np.ones((40, 40), dtype=np.uint8))))
         assert np.ptp(drawing.bounds, axis=0).max() == pytest.approx(1024 * 48 / 64, abs=1)

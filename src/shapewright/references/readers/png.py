@@ -7,28 +7,16 @@ from typing import Any, cast
 
 import numpy as np
 import shapely
+from contourpy import FillType, contour_generator
 from numpy.typing import NDArray
 
 from shapewright.references.errors import UnreadableError
-from shapewright.shapes import Drawing, Floats
+from shapewright.shapes import Drawing
 
 MOST = 1024
 """Larger pictures are reduced to so many pixels along their longer side."""
 _SLACK = 0.3
-"""Pixels that an outline may be simplified by."""
-
-# Which two sides of a cell an outline joins, by the sum of its dark corners: 1 top left, 2 top right, 4 bottom right,
-# 8 bottom left. Sides: 0 top, 1 right, 2 bottom, 3 left. Two dark corners across from each other (5 and 10) stay apart.
-_JOINED = {
-    **dict.fromkeys((1, 14), ((3, 0),)),
-    **dict.fromkeys((2, 13), ((0, 1),)),
-    **dict.fromkeys((3, 12), ((3, 1),)),
-    **dict.fromkeys((4, 11), ((1, 2),)),
-    **dict.fromkeys((6, 9), ((0, 2),)),
-    **dict.fromkeys((7, 8), ((2, 3),)),
-    5: ((3, 0), (1, 2)),
-    10: ((0, 1), (2, 3)),
-}
+"""Pixels that an outline may be simplified by: less than half a pixel, so it stays between a dark and a light one."""
 
 
 def read_png(data: bytes) -> tuple[Drawing, tuple[str, ...]]:
@@ -49,25 +37,19 @@ def read_png(data: bytes) -> tuple[Drawing, tuple[str, ...]]:
 
 
 def outline(darkness: NDArray[np.float32]) -> shapely.Polygon | shapely.MultiPolygon:
-    """The area where a picture (H, W) of values in [0, 1] is above one half, by marching squares; y up, in pixels."""
+    """The area where a picture (H, W) of values in [0, 1] is above one half, by marching squares; y up, in pixels.
+
+    Two dark pixels that touch in a corner are joined where the mean of the four around it is above one half.
+    """
     grid = np.pad(darkness.astype(np.float64), 1)
-    dark = grid > 0.5
     height, width = grid.shape
-    rows, columns = np.mgrid[:height, :width] - 1.0
-    with np.errstate(divide="ignore", invalid="ignore"):
-        right = columns[:, :-1] + (0.5 - grid[:, :-1]) / np.diff(grid, axis=1)
-        down = rows[:-1] + (0.5 - grid[:-1]) / np.diff(grid, axis=0)
-    across, along = np.stack([right, rows[:, :-1]], axis=-1), np.stack([columns[:-1], down], axis=-1)
-    sides = (across[:-1], along[:, 1:], across[1:], along[:, :-1])
-    kinds = dark[:-1, :-1] + 2 * dark[:-1, 1:] + 4 * dark[1:, 1:] + 8 * dark[1:, :-1]
-    pieces: list[Floats] = []
-    for kind, joined in _JOINED.items():
-        chosen = kinds == kind
-        pieces += [np.stack([sides[a][chosen], sides[b][chosen]], axis=1) for a, b in joined]
-    segments = np.concatenate(pieces) * [1.0, -1.0]
-    lines: Any = shapely.linestrings(segments)
-    rings = shapely.line_merge(shapely.multilinestrings(lines))
-    area: Any = shapely.simplify(shapely.build_area(rings), _SLACK)
+    contours = contour_generator(np.arange(width) - 1.0, 1.0 - np.arange(height), grid, fill_type=FillType.OuterOffset)
+    parts: list[shapely.Polygon] = []
+    for points, offsets in zip(*contours.filled(0.5, np.inf), strict=True):
+        rim, *holes = np.split(points, offsets[1:-1])
+        parts.append(shapely.Polygon(rim, holes))
+    whole: Any = parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
+    area: Any = shapely.simplify(whole, _SLACK)
     return cast("shapely.Polygon | shapely.MultiPolygon", area if area.is_valid else shapely.make_valid(area))
 
 
