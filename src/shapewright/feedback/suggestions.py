@@ -150,7 +150,7 @@ def _suggestion(change: Change, procedure: Procedure, cases: Mapping[int, Case],
             "lost": 0,
             "before": float(np.mean([cases[row].nearest.distance for row in rows])),
             "after": float(np.mean([outcome.distance(row) for row in rows])),
-            "parameters": {names[row]: outcome.replicas[row].parameters for row in rows},
+            "parameters": {names[row]: outcome.parameters[row] for row in rows},
         },
     )
 

@@ -10,7 +10,6 @@ from shapewright.feedback.trials.attempt import (
     builds_the_same,
     nearest_starts,
     outcome_of,
-    outcome_of_starts,
     turned_to,
     with_borrowed_choices,
 )
@@ -51,10 +50,6 @@ def judge():
 START = {"height": 0.8, "wide": False}
 
 
-def parameters(outcome):
-    return {row: replica.parameters for row, replica in outcome.replicas.items()}
-
-
 def distances(outcome):
     return {row: outcome.distance(row) for row in outcome.counted}
 
@@ -63,9 +58,9 @@ def test_a_trial_searches_each_reference_and_judges_it(judge, crew):
     first = outcome_of(crew, {0: START, 1: START}, judge, LONG)
     again = outcome_of(crew, {0: START, 1: START}, judge, LONG)
     only = outcome_of(crew, {1: START}, judge, None)
-    assert parameters(first) == parameters(again) and distances(first) == distances(again)
+    assert first.parameters == again.parameters and distances(first) == distances(again)
     assert first.compatible == (0,) and first.distance(1) < only.distance(1)
-    assert parameters(only) == {1: START} and first.replicas[1].parameters["height"] > 0.95
+    assert only.parameters == {1: START} and first.parameters[1]["height"] > 0.95
     assert distances(only.joined(first)) == distances(first)
 
 
@@ -77,7 +72,7 @@ def test_a_search_may_leave_some_scalars_as_they_are(judge, crew):
     with turned_to(source, crew):
         found = outcome_of(crew, {0: start}, judge, LONG, only=["height"])
         both = outcome_of(crew, {0: start}, judge, LONG)
-    assert found.replicas[0].parameters["depth"] == pytest.approx(0.3) and found.replicas[0].parameters["height"] > 0.35
+    assert found.parameters[0]["depth"] == pytest.approx(0.3) and found.parameters[0]["height"] > 0.35
     assert both.distance(0) <= found.distance(0)
 
 
@@ -85,7 +80,7 @@ def test_a_search_keeps_a_choice_that_it_is_sure_of(crew):
     deep = Judge.of(sw.Collection.of({"deep": box((0.5, 0.5, 0.2)).mesh()}), sw.Settings(workers=1))
     free = outcome_of(crew, {0: START}, deep, OTHER_CHOICES)
     sure = outcome_of(crew, {0: START}, deep, OTHER_CHOICES, sure="wide")
-    assert free.replicas[0].parameters["wide"] is True and sure.replicas[0].parameters["wide"] is False
+    assert free.parameters[0]["wide"] is True and sure.parameters[0]["wide"] is False
     assert free.distance(0) < sure.distance(0)
     assert distances(free.using(lambda values: not values["wide"])) == {}
     assert distances(sure.using(lambda values: not values["wide"])) == distances(sure)
@@ -94,11 +89,11 @@ def test_a_search_keeps_a_choice_that_it_is_sure_of(crew):
 def test_the_nearest_candidate_is_where_a_search_begins(post, judge, crew):
     candidates = {0: [START, {**START, "height": 0.5}], 1: [{**START, "height": 9.0}]}
     starts = nearest_starts(crew, candidates, judge, dict.fromkeys(candidates, 1))
-    assert starts[0].parameters["height"] == 0.5 and starts[1].parameters["height"] == 1.0
-    assert starts[0].cost < 0.18 * 15_000 < starts[1].cost
-    outcome = outcome_of_starts(starts, 0.18)
-    assert outcome.compatible == (0,) and outcome.distance(1) == starts[1].cost / 15_000
-    assert with_borrowed_choices(post.space, outcome, {0: START, 1: {**START, "wide": True}}) == {
+    assert starts.parameters[0]["height"] == 0.5 and starts.parameters[1]["height"] == 1.0
+    assert starts.distance(0) < 0.18 < starts.distance(1)
+    (cost,) = judge.search_costs([(1, starts.replicas[1].mesh)])
+    assert starts.compatible == (0,) and starts.distance(1) == cost / 15_000
+    assert with_borrowed_choices(post.space, starts, {0: START, 1: {**START, "wide": True}}) == {
         1: [{"height": 0.5, "wide": False}, {"height": 0.8, "wide": False}]
     }
 
@@ -107,7 +102,7 @@ def test_a_changed_procedure_lives_as_long_as_the_trial(judge, crew):
     with turned_to(POST.replace("1.0)]", "4.0)]"), crew):
         path = crew.procedure.path
         found = outcome_of(crew, {1: START}, judge, LONG)
-        assert found.compatible == (1,) and found.replicas[1].parameters["height"] > 1.5 and path.exists()
+        assert found.compatible == (1,) and found.parameters[1]["height"] > 1.5 and path.exists()
     assert not path.exists()
     with pytest.raises(ProcedureError), turned_to("nothing here", crew):
         pass
@@ -135,14 +130,14 @@ def test_references_lend_each_other_their_choices(crew):
     with turned_to(CHOICE.replace("import box", "import box, cylinder"), crew):
         starts = {0: {**START, "round": True}, 1: {**START, "round": False}}
         alone = outcome_of(crew, starts, judge, BRIEF)
-        far = Replica(1, alone.replicas[1].parameters, alone.replicas[1].mesh, 0.5)
+        far = Replica(1, alone.parameters[1], alone.replicas[1].mesh, 0.5)
         alone = Outcome.of([alone.replicas[0], far], alone.threshold)
         begin = nearest_starts(crew, with_borrowed_choices(crew.procedure.space, alone, starts), judge, {1: 1})
-        assert list(begin) == [1] and begin[1].parameters["round"]
-        together = alone.joined(outcome_of(crew, {1: begin[1].parameters}, judge, LONG))
+        assert begin.counted == (1,) and begin.parameters[1]["round"]
+        together = alone.joined(outcome_of(crew, begin.parameters, judge, LONG))
         assert with_borrowed_choices(crew.procedure.space, Outcome.of([], 0.18), starts) == {}
     assert alone.compatible == (0,) and together.compatible == (0, 1)
-    assert together.replicas[1].parameters["round"] and together.replicas[0].parameters == alone.replicas[0].parameters
+    assert together.parameters[1]["round"] and together.parameters[0] == alone.parameters[0]
 
 
 def test_a_candidate_that_falls_apart_gives_way_to_one_that_stands(judge, crew):
@@ -152,9 +147,10 @@ def test_a_candidate_that_falls_apart_gives_way_to_one_that_stands(judge, crew):
     apart, whole = {"height": 0.8, "wide": True}, {"height": 0.4, "wide": False}
     with turned_to(source, crew):
         several = nearest_starts(crew, {1: [apart, whole]}, judge, {1: 1})
-        (cheapest,) = nearest_starts(crew, {1: [apart]}, judge, {1: 1}).values()
+        cheapest = nearest_starts(crew, {1: [apart]}, judge, {1: 1})
         falling = nearest_starts(crew, {1: [apart, whole]}, judge, {1: 2})
-    assert several[1].parameters == whole and falling[1].parameters == apart and several[1].cost > cheapest.cost
+    assert several.parameters[1] == whole and falling.parameters[1] == apart
+    assert several.distance(1) > cheapest.distance(1)
 
 
 def test_replicas_that_fall_apart_do_not_count():

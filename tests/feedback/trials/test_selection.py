@@ -51,10 +51,6 @@ def tall(post, heights):
     return misfits, judge
 
 
-def parameters(outcome):
-    return {row: replica.parameters for row, replica in outcome.replicas.items()}
-
-
 def test_what_brings_something_is_shown_with_the_ranges_that_are_needed(post):
     misfits, judge = tall(post, (2.8, 3.2))
     assert all(misfit.before > judge.goal for misfit in misfits)
@@ -66,7 +62,7 @@ def test_what_brings_something_is_shown_with_the_ranges_that_are_needed(post):
     assert height.outcome.compatible == (0, 1) and 2.0 < height.ranges["height"][1] < 4.0
     assert height.source == height.proposal.write(height.ranges)
     again = selected(post, ideas, misfits, judge, known, 400, 3)
-    assert parameters(again[0].outcome) == parameters(height.outcome) and again[0].source == height.source
+    assert again[0].outcome.parameters == height.outcome.parameters and again[0].source == height.source
 
 
 def test_parameters_known_with_longer_ranges_need_no_search(post):
@@ -74,7 +70,7 @@ def test_parameters_known_with_longer_ranges_need_no_search(post):
     (plain,) = misfits
     known = Misfit(0, plain.parameters, plain.replica, (), plain.nearest, judge.goal, {"height": 3.0, "depth": 0.1})
     (shown,) = selected(post, [longer("height", 4.0, (0,))], [known], judge, [], 1, 3)
-    assert shown.outcome.replicas[0].parameters == {"height": 3.0, "depth": 0.1} and shown.outcome.distance(0) < 0.02
+    assert shown.outcome.parameters[0] == {"height": 3.0, "depth": 0.1} and shown.outcome.distance(0) < 0.02
     assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, [], 1, 3) == []
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -41,21 +40,6 @@ _LENDERS = 3  # compatible references with different choices, the nearest of whi
 _SAME = 1e-6  # relative difference of bounds and areas up to which two shapes are one
 
 
-@dataclass(frozen=True, eq=False)
-class Start:
-    """Where a search for a reference begins.
-
-    Attributes:
-        parameters: of the changed procedure.
-        mesh: the shape that they make.
-        cost: an upper bound of its raw light field distance.
-    """
-
-    parameters: Parameters
-    mesh: Mesh
-    cost: float
-
-
 @contextmanager
 def turned_to(source: str, crew: Workers) -> Iterator[Workers]:
     """Workers that turn to the procedure of the same name in a changed source.
@@ -72,11 +56,11 @@ def turned_to(source: str, crew: Workers) -> Iterator[Workers]:
 
 def nearest_starts(
     crew: Workers, candidates: Mapping[int, Sequence[Parameters]], judge: Judge, pieces: Mapping[int, int]
-) -> dict[int, Start]:
+) -> Outcome:
     """The nearest of some candidates for each reference (by row), moved into the Ranges and built without a search.
 
-    Of several candidates, the nearest that falls into no more pieces than it may. References of which nothing can be
-    built are left out.
+    Their distances are upper bounds of what is judged. Of several candidates, the nearest that falls into no more
+    pieces than it may. References of which nothing can be built are left out.
     """
     space = crew.procedure.space
     asked = [(row, space.carry(values)) for row, several in candidates.items() for values in several]
@@ -84,22 +68,16 @@ def nearest_starts(
     pairs = zip(asked, builds, strict=True)
     made = [(row, build.parameters, build.shape) for (row, _), build in pairs if isinstance(build.shape, Mesh)]
     costs = judge.search_costs([(row, mesh) for row, _, mesh in made])
-    several: dict[int, list[Start]] = {}
+    several: dict[int, list[Replica]] = {}
     for cost, (row, values, mesh) in zip(costs, made, strict=True):
         if np.isfinite(cost):
-            several.setdefault(row, []).append(Start(values, mesh, cost))
-    starts: dict[int, Start] = {}
+            several.setdefault(row, []).append(Replica(row, values, mesh, cost / RAW_SCALE))
+    starts = []
     for row, choices in several.items():
-        choices.sort(key=lambda start: start.cost)
+        choices.sort(key=lambda start: start.distance)
         whole = (start for start in choices if separate(start.mesh) <= pieces[row]) if len(choices) > 1 else ()
-        starts[row] = next(iter(whole), choices[0])
-    return starts
-
-
-def outcome_of_starts(starts: Mapping[int, Start], threshold: float) -> Outcome:
-    """What the starts, by row, give without a search."""
-    replicas = [Replica(row, start.parameters, start.mesh, start.cost / RAW_SCALE) for row, start in starts.items()]
-    return Outcome.of(replicas, threshold)
+        starts.append(next(iter(whole), choices[0]))
+    return Outcome.of(starts, judge.settings.threshold)
 
 
 def outcome_of(

@@ -44,6 +44,15 @@ class Outcome:
         """Infinite where no replica counts."""
         return self.replicas[row].distance if row in self.counted else np.inf
 
+    @property
+    def parameters(self) -> dict[int, Parameters]:
+        """Of all replicas, by row."""
+        return {row: replica.parameters for row, replica in self.replicas.items()}
+
+    def only_counted(self) -> Outcome:
+        """Without the replicas that do not count."""
+        return replace(self, replicas={row: self.replicas[row] for row in self.counted})
+
     def whole(self, pieces: Mapping[int, int]) -> Outcome:
         """Only replicas count that fall into no more pieces than they may: nothing may float.
 

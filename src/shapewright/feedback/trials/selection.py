@@ -22,11 +22,9 @@ from shapewright.feedback.trials.attempt import (
     FEW_SCALARS,
     LONG,
     OTHER_CHOICES,
-    Start,
     builds_the_same,
     nearest_starts,
     outcome_of,
-    outcome_of_starts,
     turned_to,
     with_borrowed_choices,
 )
@@ -75,10 +73,10 @@ class Change:
 
 @dataclass(frozen=True, eq=False)
 class _Prospect:
-    """A proposal with starts for some misfits, by row, and how many references it may make compatible."""
+    """A proposal, where searches for some misfits may begin, and how many references it may make compatible."""
 
     proposal: Proposal
-    starts: Mapping[int, Start]
+    starts: Outcome
     promise: float
 
 
@@ -97,9 +95,6 @@ class _Trials:
     crew: Workers
     misfits: Sequence[Misfit]
     judge: Judge
-
-    def outcome_of_starts(self, starts: Mapping[int, Start]) -> Outcome:
-        return outcome_of_starts(starts, self.judge.settings.threshold)
 
 
 def selected(
@@ -134,7 +129,7 @@ def selected(
             left -= allowed
             outcome = _outcome_for_all(trials, prospect, allowed)
             if outcome.compatible:
-                values = [outcome.replicas[row].parameters for row in outcome.compatible]
+                values = [outcome.parameters[row] for row in outcome.compatible]
                 changes.append(Change(idea, narrowed(idea, procedure.space, values), "", outcome))
         return _worth_showing(trials, changes, limit)
 
@@ -149,7 +144,7 @@ def _built(trials: _Trials, idea: Proposal, known: Sequence[Replica]) -> Iterato
             if builds_the_same(crew, known):
                 pieces = {m.row: m.pieces for m in some}
                 starts = nearest_starts(crew, {m.row: idea.candidates(m) for m in some}, trials.judge, pieces)
-                starts = {row: starts[row] for row in trials.outcome_of_starts(starts).whole(pieces).counted}
+                starts = starts.whole(pieces).only_counted()
                 yield _Prospect(idea, starts, _promise(idea, misfits, {m.row: _way(m, starts) for m in some}))
     except (EditError, ProcedureError):
         return
@@ -159,8 +154,8 @@ def _spread(misfits: Sequence[Misfit], count: int) -> list[Misfit]:
     return [misfits[i] for i in sorted({int(i) for i in np.linspace(0, len(misfits) - 1, count)})] if misfits else []
 
 
-def _way(misfit: Misfit, starts: Mapping[int, Start]) -> float:
-    return misfit.way(starts[misfit.row].cost) if misfit.row in starts else 0.0
+def _way(misfit: Misfit, starts: Outcome) -> float:
+    return misfit.way(starts.distance(misfit.row) * RAW_SCALE)
 
 
 def _promise(idea: Proposal, misfits: Sequence[Misfit], ways: Mapping[int, float]) -> float:
@@ -176,22 +171,16 @@ def _promise(idea: Proposal, misfits: Sequence[Misfit], ways: Mapping[int, float
 def _briefly_searched(trials: _Trials, prospect: _Prospect, evaluations: int) -> _Prospect:
     """The same after a short search for the nearest of the misfits that it is for, which then stand for the others."""
     idea, starts, misfits = prospect.proposal, prospect.starts, trials.misfits
-    ways = {m.row: _way(m, starts) for m in misfits if m.row in starts}
+    ways = {m.row: _way(m, starts) for m in misfits if m.row in starts.replicas}
     budget = BRIEF.within(max(evaluations / _SEARCHED, _LEAST), int(trials.space.scalars.sum()))
-    near = sorted((row for row in ways if row in idea.starts and ways[row] < 1.0), key=lambda row: starts[row].cost)
+    near = sorted((row for row in ways if row in idea.starts and ways[row] < 1.0), key=starts.distance)
     near = near[: min(_SEARCHED, evaluations // _LEAST)]
     if not near:
         return prospect
     with turned_to(idea.write(idea.ranges), trials.crew) as crew:
-        begin = {row: starts[row].parameters for row in near}
-        outcome = outcome_of(crew, begin, trials.judge, budget, sure=idea.flag).using(idea.uses)
-    better = {
-        row: Start(replica.parameters, replica.mesh, replica.distance * RAW_SCALE)
-        for row, replica in outcome.replicas.items()
-        if outcome.distance(row) * RAW_SCALE < starts[row].cost
-    }
-    starts = {**starts, **better}
-    after = {m.row: _way(m, starts) for m in misfits if m.row in starts}
+        begin = {row: starts.parameters[row] for row in near}
+        starts = starts.joined(outcome_of(crew, begin, trials.judge, budget, sure=idea.flag).using(idea.uses))
+    after = {m.row: _way(m, starts) for m in misfits if m.row in ways}
     lift = float(np.mean([after[row] for row in near]))
     after = {row: way if row in near or row not in idea.starts else max(way, lift) for row, way in after.items()}
     return replace(prospect, starts=starts, promise=_promise(idea, misfits, after))
@@ -202,9 +191,8 @@ def _outcome_for_all(trials: _Trials, prospect: _Prospect, evaluations: int) -> 
     idea, judge, pieces = prospect.proposal, trials.judge, {m.row: m.pieces for m in trials.misfits}
     with turned_to(idea.write(idea.ranges), trials.crew) as crew:
         space = crew.procedure.space
-        others = {m.row: idea.candidates(m) for m in trials.misfits if m.row not in prospect.starts}
-        starts = {**prospect.starts, **nearest_starts(crew, others, judge, pieces)}
-        outcome = trials.outcome_of_starts(starts).whole(pieces)
+        others = {m.row: idea.candidates(m) for m in trials.misfits if m.row not in prospect.starts.replicas}
+        outcome = prospect.starts.joined(nearest_starts(crew, others, judge, pieces)).whole(pieces)
         fresh = [name for name in space.names if name not in trials.space.names]
         left, before = evaluations, 0
         turns: list[tuple[Budget, Sequence[str] | None, float]] = [
@@ -217,18 +205,18 @@ def _outcome_for_all(trials: _Trials, prospect: _Prospect, evaluations: int) -> 
         for turn, (budget, only, aim) in enumerate(turns):
             if idea.rule and len(outcome.compatible) > before:
                 before = len(outcome.compatible)
-                known = {row: replica.parameters for row, replica in outcome.replicas.items()}
-                borrowed = _afforded(with_borrowed_choices(space, outcome, known), int(_BORROWED * left))
+                borrowed = with_borrowed_choices(space, outcome, outcome.parameters)
+                borrowed = _afforded(borrowed, int(_BORROWED * left))
                 left -= sum(len(several) for several in borrowed.values())
-                lent = trials.outcome_of_starts(nearest_starts(crew, borrowed, judge, pieces))
-                outcome = outcome.joined(lent.using(idea.uses)).whole(pieces)
+                lent = nearest_starts(crew, borrowed, judge, pieces).using(idea.uses)
+                outcome = outcome.joined(lent).whole(pieces)
             free = int(space.scalars.sum()) if only is None else len(only)
             rows = _worth_a_search(outcome, aim, PROMISING if idea.rule else _FAR)
             rows = rows[: left // min(budget.evaluations(free), _LEAST)]
             if rows and free:
                 within = budget.within(left / len(rows), free)
                 left -= len(rows) * within.evaluations(free)
-                begin = {row: outcome.replicas[row].parameters for row in rows}
+                begin = {row: outcome.parameters[row] for row in rows}
                 searched = outcome_of(crew, begin, judge, within, turn, ENOUGH * aim, only, idea.flag)
                 outcome = outcome.joined(searched.using(idea.uses)).whole(pieces)
     return outcome
@@ -274,7 +262,7 @@ def _simpler(one: Change, other: Change) -> bool:
 def _final(trials: _Trials, change: Change) -> Iterator[Change]:
     """The same with its final source, and what that really gives; nothing if that is nothing."""
     idea, judge = change.proposal, trials.judge
-    made = {row: change.outcome.replicas[row].parameters for row in change.outcome.compatible}
+    made = {row: change.outcome.parameters[row] for row in change.outcome.compatible}
     try:
         source = idea.write(change.ranges)
         with turned_to(source, trials.crew) as crew:
