@@ -28,12 +28,14 @@ from shapewright.threads import in_threads
 
 EVALUATIONS = 4_500
 """Shapes built for all trials together, about, where misfits are few: the causes of many take long enough."""
-_FEWER = 36  # for each misfit, until a quarter of them is left
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
+_FEWER, _LEAST = 36, 1 / 4  # shapes less for each misfit, until this part of them is left
 _STUDIED = 12  # misfits that hypotheses are made for, at most
+_HYPOTHESES = 3  # of each of these, at most
 _FEW = 0.12  # share of these, of which a proposal must be for more to be tried
 _KNOWN = 8  # shapes that no change may alter
-_SAMPLES = 40
-_PICTURED = 3
+_SAMPLES = 40  # shapes that tell which parts all shapes have
+_PICTURED = 3  # references in the picture of a suggestion
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +94,7 @@ def suggestions(
     known = [case.replica for case in cases[:_KNOWN]]
     # A part is only ever proposed for misfits that were studied.
     worthy = [idea for idea in ideas if len(idea.starts) > _FEW * min(len(misfits), _STUDIED)]
-    evaluations = max(EVALUATIONS - _FEWER * len(misfits), EVALUATIONS // 4)
+    evaluations = max(EVALUATIONS - _FEWER * len(misfits), int(_LEAST * EVALUATIONS))
     changes = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
     by_row = {case.row: case for case in cases}
     return tuple(_suggestion(change, procedure, by_row, judge) for change in changes)
@@ -114,7 +116,7 @@ def _misfits(cases: Sequence[Case], judge: Judge) -> list[Misfit]:
             case.row,
             case.covering.parameters,
             case.covering.mesh,
-            tuple(guesses[:3]),
+            tuple(guesses[:_HYPOTHESES]),
             case.nearest.parameters,
             judge.goal,
             case.outside.parameters,
@@ -128,7 +130,7 @@ def _always(space: ParameterSpace, crew: Workers, seed: int) -> list[str]:
     """Labels that every shape of the procedure has."""
     builds = crew.build(space.sample(_SAMPLES, seed))
     names = [build.shape.label_names for build in builds if isinstance(build.shape, Mesh)]
-    return [name for name in (names[0] if names else ()) if all(name in each for each in names)]
+    return [name for name in (names[0] if names else ()) if all(name in others for others in names)]
 
 
 def _suggestion(change: Change, procedure: Procedure, cases: Mapping[int, Case], judge: Judge) -> Suggestion:

@@ -10,12 +10,13 @@ from shapewright.feedback.causes.leaning import Leaning
 from shapewright.feedback.causes.structure import part_causes
 from shapewright.parameters import ParameterSpace, Scalar, Side
 
+# Where nothing else is said, chosen on seed 0 of benchmarks/causes.py.
 _HELPS = 0.2  # share of the distance that a longer Range has to take away to be a cause when it does not suffice
 _BARELY = 0.8  # of the threshold
 _LACKING = 0.01  # share of the surface times distance, of a missing or surplus part that is beyond doubt
 _TOGETHER = 0.75  # of what lies apart within the space
 _CLOSE = 0.5  # of the threshold: nearer than shapes come that make up for something else
-_LEANS = 0.67  # of what lies apart, that is left at most where a part leans
+_LEANS = 0.67  # of what lies apart, that is left at most where a part leans (docs/benchmarks.md, seeds 1 and 2)
 _FAR = 1.25  # thresholds: an outlier that comes nearer than this is only an unusual shape
 
 

@@ -38,8 +38,8 @@ EVALUATIONS = 3_600
 """Shapes built for all references together, about: with 6,000 the causes were no better (docs/benchmarks.md)."""
 ENOUGH = 0.9
 """Of the threshold. In the pose that both share, distances are upper bounds of what is judged."""
-_SHARES = 0.45, 0.55  # of EVALUATIONS: for the nearest and for the covering replicas
-_SPREADS = 0.15, 0.2  # of the same, of the first random points, encoded
+_NEAREST_SHARE, _COVERING_SHARE = 0.45, 0.55  # of EVALUATIONS
+_NEAREST_SPREAD, _COVERING_SPREAD = 0.15, 0.2  # of the first random points, encoded
 
 
 def measured(asked: Sequence[tuple[int, Parameters]], crew: Workers, judge: Judge) -> list[Replica | None]:
@@ -73,10 +73,10 @@ def nearest_replicas(
         prediction,
         crew,
         judge.measure([replica.row for replica in known], [replica.field for replica in known]),
-        budget or affordable(NEAREST, _SHARES[0], len(known), crew),
+        budget or affordable(NEAREST, _NEAREST_SHARE, len(known), crew),
         judge.settings.seed,
         [replica.parameters for replica in known],
-        spread=_SPREADS[0],
+        spread=_NEAREST_SPREAD,
         enough=ENOUGH * judge.goal,
     )
     return nearer(known, vectors, crew, judge)
@@ -95,10 +95,10 @@ def covering_replicas(
         prediction,
         crew,
         measure_of(overlays, judge.settings.workers),
-        affordable(COVERING, _SHARES[1], len(known), crew),
+        affordable(COVERING, _COVERING_SHARE, len(known), crew),
         judge.settings.seed,
         _starts(known, overlays, crew, judge),
-        spread=_SPREADS[1],
+        spread=_COVERING_SPREAD,
     )
     rows = [replica.row for replica in known]
     fresh = measured(list(zip(rows, vectors, strict=True)), crew, judge)

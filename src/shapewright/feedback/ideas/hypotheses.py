@@ -22,6 +22,7 @@ from shapewright.feedback.surfaces.interior import filled
 from shapewright.feedback.surfaces.residuals import NEAR, Residuals
 from shapewright.shapes import Floats, Mesh
 
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _SURPLUS = 0.5  # share of a part's visible surface that is surplus, from which on it may have to go
 _FEWEST = 8  # points on a part that tell whether it is surplus
 _BETTER = 0.88  # of the replica's cost, that a hypothesis must stay below

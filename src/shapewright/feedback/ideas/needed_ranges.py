@@ -10,10 +10,14 @@ from shapewright.feedback.ideas.proposal import Proposal, Ranges
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 from shapewright.shapes import Floats
 
-_MARGINS = 0.03, 0.12, 0.08
-"""Of a longer Range, of the spread of its values; of a new one, of the spread and of the greatest value."""
-_SPREAD = 0.02, 0.98  # quantiles between which the values of a new parameter spread
-_SLACK = 0.05  # least greatest value that a margin is made from, in units of the shape
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
+_MARGIN = 0.03  # around the values of a longer Range, of their spread
+_MARGIN_OF_SPREAD, _MARGIN_OF_SIZE = 0.12, 0.08  # around those of a new one: of the spread, and of the greatest value
+_SMALL = 0.05  # a greatest value below counts as this much, in units of the shape
+_NEEDED, _WANTED = (0.02, 0.98), (0.05, 0.95)  # quantiles between which values spread: after trials, and before
+_WIDER = 0.6  # of their spread, that a Range to begin with is longer at both ends
+_LEAST_OF_SIZE, _LEAST = 0.3, 0.04  # the least spread: of the median, and in units of the shape
+_LOWEST_OF_LOW, _LOWEST = 0.3, 0.004  # the least low end of positive values: of the low quantile, and in these units
 
 
 def narrowed(proposal: Proposal, space: ParameterSpace, values: Sequence[Parameters]) -> Ranges:
@@ -29,13 +33,13 @@ def narrowed(proposal: Proposal, space: ParameterSpace, values: Sequence[Paramet
 
 def generous(values: Floats, whole: bool) -> tuple[float, float, float]:
     """Low, high and default of a Range to begin with: far wider than what hypotheses ask for. whole: integers only."""
-    low, high = (float(q) for q in np.quantile(values, [0.05, 0.95]))
+    low, high = (float(q) for q in np.quantile(values, _WANTED))
     middle = float(np.median(values))
     if whole:
         return max(1.0, low - 1), high + 2, middle
-    spread = max(high - low, 0.3 * abs(middle), 0.04)
-    low = low - 0.6 * spread if low < 0 else max(low - 0.6 * spread, 0.3 * low, 0.004)
-    return low, high + 0.6 * spread, middle
+    more = _WIDER * max(high - low, _LEAST_OF_SIZE * abs(middle), _LEAST)
+    low = low - more if low < 0 else max(low - more, _LOWEST_OF_LOW * low, _LOWEST)
+    return low, high + more, middle
 
 
 def _kept_short(
@@ -44,7 +48,7 @@ def _kept_short(
     """The old Range, as much longer as the values need with a margin, and no longer than the one that was tried."""
     assert isinstance(parameter, Scalar | Integer)
     low, high = min(values), max(values)
-    margin = _MARGINS[0] * (high - low) if isinstance(parameter, Scalar) else 0.0
+    margin = _MARGIN * (high - low) if isinstance(parameter, Scalar) else 0.0
     return (
         max(_down(low - margin), wide[0]) if low < parameter.low else parameter.low,
         min(-_down(-high - margin), wide[1]) if high > parameter.high else parameter.high,
@@ -58,8 +62,8 @@ def _around(values: Floats, whole: bool, wide: tuple[float, float, float]) -> tu
         least, most = float(values.min()), float(values.max())
         alike = float(least == most)
         return max(1.0, least - alike), most + alike, float(np.median(values))
-    low, high = (float(q) for q in np.quantile(values, _SPREAD))
-    margin = _MARGINS[1] * (high - low) + _MARGINS[2] * max(abs(low), abs(high), _SLACK)
+    low, high = (float(q) for q in np.quantile(values, _NEEDED))
+    margin = _MARGIN_OF_SPREAD * (high - low) + _MARGIN_OF_SIZE * max(abs(low), abs(high), _SMALL)
     default = float(np.median(values)) if wide[2] != 1.0 else 1.0
     low, high = max(wide[0], low - margin), min(wide[1], high + margin)
     low, high = _down(min(low, default)), -_down(-max(high, default))

@@ -24,6 +24,7 @@ from shapewright.shapes import Floats, Mesh
 
 Wanted = Sequence[tuple[Misfit, Hypothesis]]
 """Misfits, each with a hypothesis that a rule has to make true."""
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _REMOVED = 0.4  # share of the misfits whose replica has the part, from which on the rule takes it away
 _MOST_PIECES = 3  # of a rule, that are commonest; one more where hypotheses agree on the whole
 _COMMON, _WHOLES = 5, 3  # forms of pieces, and whole sets of pieces, that are looked at

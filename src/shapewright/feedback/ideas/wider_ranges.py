@@ -12,6 +12,7 @@ from shapewright.feedback.writing.source import EditError
 from shapewright.feedback.writing.spelling import number
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _SHARE, _FEWEST = 0.05, 2  # of the misfits, that rest on an end which may move, at least
 _COMMONEST, _ENDS = 8, 6  # ends that are looked at, and that move at most
 _HELPED, _PRICE = 0.6, 0.1  # of a misfit that a longer Range may help; what each end is worth less for being changed

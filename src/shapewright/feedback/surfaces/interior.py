@@ -1,4 +1,4 @@
-"""Points inside a shape, between points on its surface: so that a post is told from a ring, in soups too."""
+"""Points inside a shape, between points on its surface: they tell a post from a ring, in triangle soups too."""
 
 from __future__ import annotations
 

@@ -9,6 +9,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from shapewright.shapes import Floats
 
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _BETTER = 0.75  # part of the upright box's volume below which a turned box is preferred
 _ENOUGH = 200  # points that tell how a box is turned
 _THIN = 0.01  # added to every side, so that flat sets of points have a volume

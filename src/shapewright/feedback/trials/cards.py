@@ -15,15 +15,21 @@ from shapewright.rendering.thumbnails import thumbnail
 from shapewright.shapes import Floats, Mesh
 
 SIZE = 200
-_MARK = np.array([235, 110, 30])
-_BEHIND = 0.03
-_DOT = 2
-_STRENGTH = 0.55
+"""Pixels of each picture's sides."""
+_MARK, _STRENGTH = np.array([235, 110, 30]), 0.55  # colour of what is marked, and its share of the pixel's
+_BEHIND = 0.03  # how far behind what a view shows a point may lie
+_DOT = 2  # pixels around a point that are marked
 
 
 @dataclass(frozen=True, eq=False)
 class Example:
-    """One row. marked: points (N, 3) of the normalised reference that the replica before does not come near."""
+    """One row of a picture.
+
+    Attributes:
+        reference: its shape.
+        marked: points (N, 3) of the normalised reference that the replica before does not come near.
+        before, after: its replicas by the procedure as it is, and by the changed one.
+    """
 
     reference: Mesh
     marked: Floats
@@ -33,19 +39,13 @@ class Example:
 
 def card(examples: Sequence[Example], size: int = SIZE) -> bytes:
     """PNG: a row for each example with the marked reference, the replica before and the one after."""
-    rows = [
-        np.concatenate(
-            [
-                _picture(each.reference, each.marked, size),
-                _picture(each.before, None, size),
-                _picture(each.after, None, size),
-            ],
-            axis=1,
-        )
-        for each in examples
+    columns = [
+        np.concatenate([_picture(row.reference, row.marked, size) for row in examples]),
+        np.concatenate([_picture(row.before, None, size) for row in examples]),
+        np.concatenate([_picture(row.after, None, size) for row in examples]),
     ]
     buffer = io.BytesIO()
-    Image.fromarray(np.concatenate(rows)).save(buffer, "PNG", optimize=True)
+    Image.fromarray(np.concatenate(columns, axis=1)).save(buffer, "PNG", optimize=True)
     return buffer.getvalue()
 
 

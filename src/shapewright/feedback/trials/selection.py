@@ -36,11 +36,13 @@ from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.procedures import Procedure, ProcedureError
 from shapewright.search.budgets import Budget
 
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _BUILT = 20  # proposals of which shapes are built, at most
 _SAMPLED = 12  # misfits that these are built for
 _LEADING, _SEARCHED = 8, 4  # proposals that are searched with before one is chosen, and misfits of each
 _CONFIRMED = 5  # proposals that are tried on all misfits, at most
-_SHARES = (0.3, 0.35)  # of the evaluations left: for the leading proposals; for each that is tried on all misfits
+_LEADING_SHARE = 0.3  # of all evaluations, for the leading proposals
+_CONFIRMED_SHARE = 0.35  # of what is left, for each that is tried on all misfits
 _BORROWED = 0.15  # of these, for the choices that suit others
 _LITTLE = 0.05  # of the most that is promised, that is not worth a trial
 _LEAST = 24  # evaluations that a search is worth beginning with
@@ -118,14 +120,14 @@ def selected(
         # What a longer Range brings only a search tells: half of the places are theirs.
         longer = [prospect for prospect in leading if prospect.proposal.rule is None][: _LEADING // 2]
         leading = [*longer, *(prospect for prospect in leading if prospect not in longer)]
-        share = int(_SHARES[0] * evaluations / min(_LEADING, max(len(leading), 1)))
+        share = int(_LEADING_SHARE * evaluations / min(_LEADING, max(len(leading), 1)))
         leading[:_LEADING] = [_briefly_searched(trials, prospect, share) for prospect in leading[:_LEADING]]
         leading = sorted(leading, key=lambda prospect: -prospect.promise)
-        changes, left = [], (1.0 - _SHARES[0]) * evaluations
+        changes, left = [], (1.0 - _LEADING_SHARE) * evaluations
         for prospect in leading[:_CONFIRMED]:
             if prospect.promise <= _LITTLE * leading[0].promise:
                 break
-            allowed, idea = int(_SHARES[1] * left), prospect.proposal
+            allowed, idea = int(_CONFIRMED_SHARE * left), prospect.proposal
             left -= allowed
             outcome = _outcome_for_all(trials, prospect, allowed)
             if outcome.compatible:
