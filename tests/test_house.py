@@ -14,8 +14,6 @@ LINES, IN_A_ROOM, AT_THE_TOP = 300, 12, 8
 STILL_LONG = {
     "modelling/grammar/boxes.py",
     "modelling/grammar/derivation.py",
-    "studio/server/app.py",
-    "studio/session/session.py",
 }
 
 

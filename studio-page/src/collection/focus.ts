@@ -1,7 +1,7 @@
 /** Moving among the tiles with the keyboard. */
 
 import { signal } from "@preact/signals";
-import type { Slug } from "../wire/protocol";
+import type { Slug } from "../wire/messages";
 
 /** The tile that has the focus, or had it last. */
 export const at = signal<Slug | null>(null);

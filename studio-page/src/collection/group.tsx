@@ -3,7 +3,7 @@
 import { useLayoutEffect } from "preact/hooks";
 import { Button } from "../ui/controls";
 import { fixed, plural } from "../ui/numbers";
-import type { Tile } from "../wire/protocol";
+import type { Tile } from "../wire/messages";
 import { at, focusOn } from "./focus";
 import { openGroups, toggleGroup } from "./order";
 import { TileCard } from "./tile";

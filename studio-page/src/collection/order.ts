@@ -2,7 +2,7 @@
 
 import { computed, signal } from "@preact/signals";
 import { collection, tiles } from "../state/studio";
-import type { Slug, Tile } from "../wire/protocol";
+import type { Slug, Tile } from "../wire/messages";
 import { at } from "./focus";
 
 export type Filter = "all" | "incompatible" | "compatible" | "limit" | "failed";
@@ -67,7 +67,7 @@ export const sections = computed((): Section[] => {
       return tile ? [tile] : [];
     });
   const groups = collection.value.groups.map(({ representative, members }): Section => {
-    return { kind: "group", tiles: take([representative, ...members.filter((slug) => slug !== representative)]) };
+    return { kind: "group", tiles: take(representative === null ? members : [representative, ...members]) };
   });
   const rest = [...left.values()];
   const compatible = rest.filter((tile) => tile.compatible).sort(ORDERS.nearest);

@@ -7,7 +7,7 @@ import { inspect } from "../state/route";
 import { Icon } from "../ui/icons";
 import { fixed } from "../ui/numbers";
 import { Dot, Picture } from "../ui/picture";
-import type { Tile } from "../wire/protocol";
+import type { Tile } from "../wire/messages";
 import { at } from "./focus";
 import { entry } from "./order";
 import { watch } from "./visible";

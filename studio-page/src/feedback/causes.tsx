@@ -2,14 +2,13 @@
 
 import { inspect } from "../state/route";
 import { tiles } from "../state/studio";
-import { plural } from "../ui/numbers";
 import { Picture } from "../ui/picture";
-import type { Explanation, SharedCause } from "../wire/protocol";
+import type { Explanation, SharedCause } from "../wire/messages";
 
 const MOST = 16;
 
 export function Causes({ explanation }: { explanation: Explanation }) {
-  const shared = explanation.summary ?? byKind(explanation);
+  const shared = explanation.summary;
   return (
     <section>
       <h2>Why they differ</h2>
@@ -49,15 +48,4 @@ function SharedRow({ cause: { kind, text, references } }: { cause: SharedCause }
       </div>
     </div>
   );
-}
-
-/** The references of each kind of cause, the commonest first. */
-function byKind(explanation: Explanation): SharedCause[] {
-  const kinds = new Map<string, Set<string>>();
-  for (const [slug, { causes }] of Object.entries(explanation.references)) {
-    for (const { kind } of causes) kinds.set(kind, (kinds.get(kind) ?? new Set()).add(slug));
-  }
-  return [...kinds]
-    .map(([kind, slugs]) => ({ kind, text: plural(slugs.size, "reference"), references: [...slugs] }))
-    .sort((a, b) => b.references.length - a.references.length);
 }

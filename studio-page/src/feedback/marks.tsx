@@ -6,7 +6,7 @@ import { collection, marks, tiles } from "../state/studio";
 import { Button } from "../ui/controls";
 import { fixed } from "../ui/numbers";
 import { Dot, Picture } from "../ui/picture";
-import type { Mark } from "../wire/protocol";
+import type { Mark } from "../wire/messages";
 
 export function Marks() {
   const known = marks.value.filter(({ a, b }) => tiles.value.has(a) && tiles.value.has(b));

@@ -7,7 +7,7 @@ import { procedure, tiles } from "../state/studio";
 import { Button } from "../ui/controls";
 import { plural } from "../ui/numbers";
 import { Picture } from "../ui/picture";
-import type { Suggestion } from "../wire/protocol";
+import type { Suggestion } from "../wire/messages";
 import { requests } from "../wire/requests";
 
 const SHOWN = 6;

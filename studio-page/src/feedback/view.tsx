@@ -6,7 +6,7 @@ import { complain } from "../state/notices";
 import { collection, explained, jobs } from "../state/studio";
 import { Button } from "../ui/controls";
 import { percent } from "../ui/numbers";
-import type { Explanation } from "../wire/protocol";
+import type { Explanation } from "../wire/messages";
 import { requests } from "../wire/requests";
 import { Causes } from "./causes";
 import { Marks } from "./marks";

@@ -6,8 +6,8 @@ import { cancel } from "../state/actions";
 import { complain } from "../state/notices";
 import { jobs } from "../state/studio";
 import { Button, Select } from "../ui/controls";
+import type { ExportFormat, ExportOrder, Part } from "../wire/messages";
 import { requests } from "../wire/requests";
-import type { ExportOrder } from "../wire/requests";
 
 const WHAT = [
   { name: "replicas", label: "Replicas", note: "one file for each reference" },
@@ -15,13 +15,15 @@ const WHAT = [
   { name: "report", label: "Report", note: "one page that needs nothing else" },
   { name: "parameters", label: "Parameters", note: "CSV" },
 ] as const;
-type What = (typeof WHAT)[number]["name"];
-const FORMATS = ["glb", "ply", "obj", "stl", "off"].map((value) => ({ value, label: value.toUpperCase() }));
+const FORMATS = (["glb", "ply", "obj", "stl", "off"] as ExportFormat[]).map((value) => ({
+  value,
+  label: value.toUpperCase(),
+}));
 
 export function ExportMenu() {
   const open = useSignal(false);
-  const what = useSignal<What[]>(["replicas", "parameters"]);
-  const order = useSignal({ format: "glb", count: 50, seed: 0 });
+  const what = useSignal<Part[]>(["replicas", "parameters"]);
+  const order = useSignal({ format: "glb" as ExportFormat, count: 50, seed: 0 });
   const place = useRef<HTMLDivElement>(null);
   const job = jobs.export.value;
   const running = job.state === "running" || job.state === "cancelling";
@@ -44,7 +46,7 @@ export function ExportMenu() {
     const request: ExportOrder = { what: what.value, ...order.value };
     requests.export(request).catch(complain);
   };
-  const choose = (name: What, on: boolean) => {
+  const choose = (name: Part, on: boolean) => {
     what.value = WHAT.map((one) => one.name).filter((one) => (one === name ? on : what.value.includes(one)));
   };
 

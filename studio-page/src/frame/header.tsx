@@ -6,11 +6,12 @@ import { bench, collection, connected, fitting, jobs, lost, procedure, project }
 import { switchTheme, theme } from "../state/theme";
 import { Button } from "../ui/controls";
 import { duration } from "../ui/numbers";
+import type { Answer } from "../wire/messages";
 import { ExportMenu } from "./exporting";
 import { helping } from "./help";
 
 const LABELS = { collection: "Collection", loop: "Loop", history: "History", feedback: "Feedback" } as const;
-const ANSWERS: Record<string, string> = {
+const ANSWERS: Record<Answer, string> = {
   "carried over": "parameters carried over",
   "most similar samples": "first guesses shown",
   predicted: "predictions shown",

@@ -7,7 +7,7 @@ import { collection, problems, procedure, tiles } from "../state/studio";
 import { Button } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { plural } from "../ui/numbers";
-import type { Problem } from "../wire/protocol";
+import type { Problem } from "../wire/messages";
 
 export function Problems() {
   const open = useSignal(false);

@@ -1,7 +1,7 @@
 /** Compatible references by iteration, as bars that choose what is compared. */
 
 import { moment, plural } from "../ui/numbers";
-import type { Run } from "../wire/protocol";
+import type { Run } from "../wire/messages";
 
 const HEIGHT = 132;
 

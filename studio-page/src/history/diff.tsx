@@ -2,7 +2,7 @@
 
 import { useSignal } from "@preact/signals";
 import { Button } from "../ui/controls";
-import type { DiffLine } from "../wire/protocol";
+import type { DiffLine } from "../wire/messages";
 
 const CONTEXT = 3;
 

@@ -4,7 +4,7 @@ import { inspect } from "../state/route";
 import { tiles } from "../state/studio";
 import { fixed } from "../ui/numbers";
 import { Dot, Picture } from "../ui/picture";
-import type { Comparison, Move } from "../wire/protocol";
+import type { Comparison, Move } from "../wire/messages";
 
 const KINDS = [
   { kind: "gained", title: "Newly compatible" },
@@ -31,7 +31,7 @@ export function Moves({ comparison }: { comparison: Comparison }) {
           </h2>
           <div class="tiles">
             {comparison[kind].map((move) => (
-              <MoveCard key={move.slug} move={move} />
+              <MoveCard key={move.name} move={move} />
             ))}
           </div>
         </section>
@@ -46,10 +46,16 @@ export function Moves({ comparison }: { comparison: Comparison }) {
 }
 
 function MoveCard({ move }: { move: Move }) {
-  const here = tiles.value.has(move.slug);
+  const slug = move.slug !== null && tiles.value.has(move.slug) ? move.slug : null;
   return (
     <article class="tile move">
-      <button type="button" class="pair" disabled={!here} aria-label={move.name} onClick={() => inspect(move.slug)}>
+      <button
+        type="button"
+        class="pair"
+        disabled={slug === null}
+        aria-label={move.name}
+        onClick={() => slug !== null && inspect(slug)}
+      >
         <Picture url={move.reference} tint={null} alt="reference" />
         <Picture url={move.replica_before} tint={move.colour_before} alt="before" />
         <Picture url={move.replica_after} tint={move.colour_after} alt="after" />

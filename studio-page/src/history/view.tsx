@@ -5,7 +5,7 @@ import { complain, tell } from "../state/notices";
 import { procedure, runs } from "../state/studio";
 import { Button, Empty, Select } from "../ui/controls";
 import { duration, moment, plural } from "../ui/numbers";
-import type { Comparison, Run } from "../wire/protocol";
+import type { Comparison, Run } from "../wire/messages";
 import { requests } from "../wire/requests";
 import { Chart } from "./chart";
 import { Diff } from "./diff";

@@ -3,8 +3,8 @@
 import { signal } from "@preact/signals";
 import { Toggle } from "../ui/controls";
 import { percent } from "../ui/numbers";
-import type { Region } from "../wire/protocol";
-import { reference } from "./session";
+import type { Region } from "../wire/messages";
+import { reference } from "./pair/session";
 
 export const regionsShown = signal(false);
 /** The region that the pointer is on in the list. */

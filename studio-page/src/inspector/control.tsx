@@ -2,7 +2,7 @@
 
 import { Button, Segments, Select, Toggle } from "../ui/controls";
 import { significant } from "../ui/numbers";
-import type { Parameter, Value } from "../wire/protocol";
+import type { Parameter, Value } from "../wire/messages";
 
 export interface Control {
   parameter: Parameter;

@@ -5,7 +5,7 @@ import { collection, dimension, marks } from "../state/studio";
 import { Button } from "../ui/controls";
 import { fixed, plural, significant } from "../ui/numbers";
 import { Dot } from "../ui/picture";
-import { edited, failure, figures, outcome, reference, replica, waiting } from "./session";
+import { edited, failure, figures, outcome, reference, replica, waiting } from "./pair/session";
 
 export function Figures() {
   const now = figures.value ?? reference.value;
@@ -25,9 +25,7 @@ export function Figures() {
               : now.compatible
                 ? "compatible"
                 : "incompatible"}
-          <small>
-            {collection.value.criterion ?? `${collection.value.measure}, threshold ${collection.value.threshold}`}
-          </small>
+          <small>{collection.value.criterion}</small>
         </span>
         {moved !== null && Math.abs(moved) >= 0.0005 && (
           <span class={`change ${moved < 0 ? "better" : "worse"}`} title={`${fixed(found)} as found`}>
@@ -96,15 +94,17 @@ export function Judgement() {
 export function Facts() {
   const open = reference.value;
   if (!open) return null;
-  const size = open.units.size.map((side) => significant(side, 4)).join(" × ");
+  const size = open.units?.size.map((side) => significant(side, 4)).join(" × ");
   return (
     <section class="facts">
       <h3>Reference</h3>
       <dl>
-        <div>
-          <dt>Size</dt>
-          <dd title="Extents along the axes of its file, in its own units">{size}</dd>
-        </div>
+        {size && (
+          <div>
+            <dt>Size</dt>
+            <dd title="Extents along the axes of its file, in its own units">{size}</dd>
+          </div>
+        )}
         {open.triangles !== null && (
           <div>
             <dt>Triangles</dt>

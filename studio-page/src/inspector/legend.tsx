@@ -3,8 +3,8 @@
 import { Segments } from "../ui/controls";
 import { partColour } from "../viewer/paint";
 import { theme } from "../state/theme";
-import { colouring, original, replica, residuals } from "./session";
-import { blend, COLOURS, layout } from "./showing";
+import { colouring, original, replica, residuals } from "./pair/session";
+import { blend, COLOURS, layout } from "./pair/layout";
 
 export function Legend() {
   const mesh = replica.value;

@@ -3,9 +3,9 @@
 import { procedure } from "../state/studio";
 import { Button } from "../ui/controls";
 import { percent, shown, significant, words } from "../ui/numbers";
-import type { Parameter, Value } from "../wire/protocol";
+import type { Parameter, Value } from "../wire/messages";
 import { ControlOf } from "./control";
-import { active, atLimit, edited, reference, reset, resetOne, set, values } from "./session";
+import { active, atLimit, edited, reference, reset, resetOne, set, values } from "./pair/session";
 
 export function Parameters() {
   const found = reference.value;

@@ -4,7 +4,7 @@ import { useSignal } from "@preact/signals";
 import { tileOf } from "../state/studio";
 import { Button } from "../ui/controls";
 import { renderUrl } from "../wire/requests";
-import { replica, slug } from "./session";
+import { replica, slug } from "./pair/session";
 
 const STEP = 30;
 

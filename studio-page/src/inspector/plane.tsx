@@ -1,8 +1,8 @@
 /** Two drawings: beside each other, over each other, or only where they differ. */
 
-import type { DrawingMessage } from "../wire/protocol";
-import { failure, original, replica } from "./session";
-import { blend, layout } from "./showing";
+import type { DrawingMessage } from "../wire/messages";
+import { failure, original, replica } from "./pair/session";
+import { blend, layout } from "./pair/layout";
 
 /** Drawings lie within half a unit of the origin, y up. */
 const FRAME = "-0.54 -0.54 1.08 1.08";

@@ -2,10 +2,10 @@
 
 import { Vector3 } from "three";
 import type { Side, Stage } from "../viewer/stage";
-import type { Region } from "../wire/protocol";
+import type { Region } from "../wire/messages";
 import { pointed, regionsShown } from "./causes";
-import { reference } from "./session";
-import { drawn, stage } from "./showing";
+import { reference } from "./pair/session";
+import { drawn, stage } from "./pair/layout";
 
 /** Each edge of a box joins two of its corners that differ in one direction. */
 const EDGES = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) =>

@@ -10,12 +10,12 @@ import { snap } from "../viewer/snapping";
 import { Stage } from "../viewer/stage";
 import type { Side } from "../viewer/stage";
 import type { Surface } from "../viewer/surface";
-import type { MeshMessage } from "../wire/protocol";
-import { hover, place, points, snapping, tool } from "./measuring";
-import { MeasureDrawing } from "./measure-drawing";
+import type { MeshMessage } from "../wire/binary";
+import { hover, place, points, snapping, tool } from "./measuring/points";
+import { MeasureDrawing } from "./measuring/drawing";
 import { RegionsDrawing } from "./regions-drawing";
-import { colouring, failure, original, replica, residuals } from "./session";
-import { blend, COLOURS, drawn, layout, stage } from "./showing";
+import { colouring, failure, original, replica, residuals } from "./pair/session";
+import { blend, COLOURS, drawn, layout, stage } from "./pair/layout";
 
 export function Space({ onFail }: { onFail: () => void }) {
   const place_ = useRef<HTMLDivElement>(null);

@@ -9,19 +9,19 @@ import { useKeys } from "../state/keys";
 import { go, inspect } from "../state/route";
 import { dimension, marks, tileOf } from "../state/studio";
 import { Button, Segments } from "../ui/controls";
-import type { Slug } from "../wire/protocol";
+import type { Slug } from "../wire/messages";
 import { VIEWS } from "../viewer/stage";
 import type { View } from "../viewer/stage";
 import { Causes, regionsShown } from "./causes";
 import { Facts, Figures, Judgement } from "./figures";
 import { LayoutSwitch, Legend, OverLegend } from "./legend";
-import { MeasureCard } from "./measure-card";
-import { take, tool, undo } from "./measuring";
+import { MeasureCard } from "./measuring/card";
+import { take, tool, undo } from "./measuring/points";
 import { Parameters } from "./parameters";
 import { Pictures } from "./pictures";
 import { DifferenceLegend, Plane } from "./plane";
-import { colouring, edited, failure, open, original, replica, reset } from "./session";
-import { layout, stage } from "./showing";
+import { colouring, edited, failure, open, original, replica, reset } from "./pair/session";
+import { layout, stage } from "./pair/layout";
 import { Space } from "./space";
 
 export function Inspector({ slug }: { slug: Slug }) {

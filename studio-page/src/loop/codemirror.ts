@@ -16,7 +16,7 @@ import {
   lineNumbers,
 } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
-import type { Problem } from "../wire/protocol";
+import type { Problem } from "../wire/messages";
 
 const colours = HighlightStyle.define([
   {

@@ -1,7 +1,7 @@
 /** The training curve: loss on what is learned from, and on what is held out. */
 
 import { fixed } from "../ui/numbers";
-import type { Epoch } from "../wire/protocol";
+import type { Epoch } from "../wire/messages";
 
 const WIDTH = 420;
 const HEIGHT = 150;

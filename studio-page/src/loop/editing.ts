@@ -4,8 +4,8 @@ import { computed, effect, signal } from "@preact/signals";
 import { complain, tell } from "../state/notices";
 import { go } from "../state/route";
 import { procedure, ready } from "../state/studio";
+import type { Source } from "../wire/messages";
 import { RequestError, requests } from "../wire/requests";
-import type { Source } from "../wire/requests";
 
 /** The text that the edit began from. */
 export const base = signal<Source | null>(null);

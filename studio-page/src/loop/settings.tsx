@@ -3,7 +3,7 @@
 import { change } from "../state/actions";
 import { settings } from "../state/studio";
 import { Select, Toggle } from "../ui/controls";
-import type { Settings as Values } from "../wire/protocol";
+import type { ChosenSettings as Values } from "../wire/messages";
 
 type Numeric = { [K in keyof Values]: Values[K] extends number ? K : never }[keyof Values];
 
@@ -16,7 +16,7 @@ const NUMBERS: { name: Numeric; label: string; title: string; whole: boolean }[]
   { name: "shape_seconds", label: "Seconds a shape", title: "How long building one shape may take", whole: false },
 ];
 
-const options = (...values: string[]) => values.map((value) => ({ value, label: value }));
+const options = <T extends string>(...values: T[]) => values.map((value) => ({ value, label: value }));
 
 export function Settings() {
   const now = settings.value;
@@ -32,13 +32,13 @@ export function Settings() {
       />
       <Select
         label="Preset"
-        options={options("fast", "paper")}
+        options={options<Values["preset"]>("fast", "paper")}
         value={now.preset}
         onChange={(preset) => void change({ preset })}
       />
       <Select
         label="Search"
-        options={options("off", "quick", "thorough")}
+        options={options<Values["refine"]>("off", "quick", "thorough")}
         value={now.refine}
         onChange={(refine) => void change({ refine })}
       />

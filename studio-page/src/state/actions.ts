@@ -1,7 +1,7 @@
 /** What the author can ask for from anywhere on the page. */
 
 import { requests } from "../wire/requests";
-import type { JobKind, Mark, Settings, Slug } from "../wire/protocol";
+import type { ChosenSettings, JobKind, Mark, Slug } from "../wire/messages";
 import { complain, tell } from "./notices";
 import { marks, settings } from "./studio";
 
@@ -17,7 +17,7 @@ export function explain(): void {
   requests.explain().catch(complain);
 }
 
-export async function change(part: Partial<Settings>): Promise<void> {
+export async function change(part: Partial<ChosenSettings>): Promise<void> {
   try {
     settings.value = await requests.settings(part);
   } catch (error) {

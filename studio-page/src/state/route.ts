@@ -1,7 +1,7 @@
 /** Where the author is: the view and, in the inspector, the shape; kept in the address so that "back" works. */
 
 import { signal } from "@preact/signals";
-import type { Slug } from "../wire/protocol";
+import type { Slug } from "../wire/messages";
 
 export const VIEWS = ["collection", "loop", "history", "feedback"] as const;
 export type ViewName = (typeof VIEWS)[number];

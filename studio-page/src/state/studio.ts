@@ -3,6 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import type {
   Change,
+  ChosenSettings,
   Collection,
   Job,
   JobKind,
@@ -10,11 +11,10 @@ import type {
   Problem,
   Procedure,
   Run,
-  Settings,
   Slug,
   State,
   Tile,
-} from "../wire/protocol";
+} from "../wire/messages";
 import { connect } from "../wire/live";
 import { complain } from "./notices";
 
@@ -49,6 +49,7 @@ export const collection = signal<Collection>({
   run: null,
   threshold: 0.18,
   measure: "",
+  criterion: "",
   count: 0,
   compatible: 0,
   tiles: [],
@@ -61,7 +62,7 @@ export const jobs = {
   export: signal(idle("export")),
 };
 export const runs = signal<Run[]>([]);
-export const settings = signal<Settings | null>(null);
+export const settings = signal<ChosenSettings | null>(null);
 export const marks = signal<Mark[]>([]);
 export const explained = signal(false);
 export const problems = signal<Problem[]>([]);

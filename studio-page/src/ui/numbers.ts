@@ -1,6 +1,6 @@
 /** Numbers as people read them. */
 
-import type { Value } from "../wire/protocol";
+import type { Value } from "../wire/messages";
 
 const DASH = "–";
 

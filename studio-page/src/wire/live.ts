@@ -1,7 +1,8 @@
 /** The WebSocket: changes of the state come in, evaluations go out and come back. */
 
 import { decode } from "./binary";
-import type { Change, Evaluated, Slug, Values } from "./protocol";
+import type { Evaluated } from "./binary";
+import type { Change, PageMessage, Slug, Values } from "./messages";
 
 const FIRST_WAIT = 400;
 const LONGEST_WAIT = 5000;
@@ -51,15 +52,17 @@ async function reason(): Promise<string> {
 /** Ask for a replica; the answers come to the one listener. Returns the number that they carry. */
 export function evaluate(slug: Slug | null, parameters: Values | null, residuals: boolean): number {
   lastId += 1;
-  if (socket?.readyState === WebSocket.OPEN) {
-    socket.send(JSON.stringify({ type: "evaluate", id: lastId, slug, parameters, residuals }));
-  }
+  send({ type: "evaluate", id: lastId, slug, parameters, residuals });
   return lastId;
 }
 
 /** Say which pairs the author looks at. */
 export function look(slugs: Slug[]): void {
-  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ type: "visible", slugs }));
+  send({ type: "visible", slugs });
+}
+
+function send(message: PageMessage): void {
+  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
 }
 
 /** Who hears the answers of evaluations; returns how to stop listening. */

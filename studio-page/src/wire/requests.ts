@@ -1,18 +1,23 @@
 /** Requests to the server; all of them raise a RequestError that can be shown to the author. */
 
 import { decode } from "./binary";
+import type { MeshMessage } from "./binary";
 import type {
+  ChosenSettings,
   Comparison,
+  Copied,
   DrawingMessage,
   Explanation,
   JobKind,
   Mark,
-  MeshMessage,
+  ExportOrder,
   Reference,
   RunDetail,
-  Settings,
+  Replaced,
   Slug,
-} from "./protocol";
+  Source,
+  Written,
+} from "./messages";
 
 export class RequestError extends Error {
   constructor(
@@ -49,19 +54,6 @@ async function send<T>(method: "POST" | "PUT" | "PATCH", path: string, body: unk
   return (await (await answer(path, { method, headers, body: JSON.stringify(body) })).json()) as T;
 }
 
-export interface Source {
-  path: string;
-  text: string;
-  digest: string;
-}
-
-export interface ExportOrder {
-  what: ("replicas" | "samples" | "report" | "parameters")[];
-  format: string;
-  count: number;
-  seed: number;
-}
-
 const id = encodeURIComponent;
 
 export const requests = {
@@ -70,22 +62,20 @@ export const requests = {
     decode(await (await answer(`/api/references/${id(slug)}/shape`)).arrayBuffer()) as MeshMessage,
   drawing: (slug: Slug) => get<DrawingMessage>(`/api/references/${id(slug)}/shape`),
   source: () => get<Source>("/api/source"),
-  saveSource: (text: string, digest: string | null) => send<{ digest: string }>("PUT", "/api/source", { text, digest }),
+  saveSource: (text: string, digest: string | null) => send<Written>("PUT", "/api/source", { text, digest }),
   fit: (fresh: boolean) => send("POST", "/api/fit", { fresh }),
   explain: () => send("POST", "/api/explain", {}),
   export: (order: ExportOrder) => send("POST", "/api/export", order),
   cancel: (kind: JobKind) => send("POST", "/api/cancel", { kind }),
-  settings: (change: Partial<Settings>) => send<Settings>("PATCH", "/api/settings", change),
+  settings: (change: Partial<ChosenSettings>) => send<ChosenSettings>("PATCH", "/api/settings", change),
   marks: (marks: Mark[]) => send("PUT", "/api/marks", marks),
   run: (run: string) => get<RunDetail>(`/api/runs/${id(run)}`),
   compare: (before: string, after: string) => get<Comparison>(`/api/compare?before=${id(before)}&after=${id(after)}`),
-  restore: (run: string, digest: string | null) =>
-    send<{ digest: string; undo: string }>("POST", `/api/runs/${id(run)}/restore`, { digest }),
+  restore: (run: string, digest: string | null) => send<Replaced>("POST", `/api/runs/${id(run)}/restore`, { digest }),
   explanation: () => get<Explanation>("/api/explanation"),
-  applyToCopy: (index: number) =>
-    send<{ path: string; text: string }>("POST", `/api/suggestions/${index}/apply`, { to: "copy" }),
+  applyToCopy: (index: number) => send<Copied>("POST", `/api/suggestions/${index}/apply`, { to: "copy" }),
   applyToProcedure: (index: number, digest: string | null) =>
-    send<{ digest: string; undo: string }>("POST", `/api/suggestions/${index}/apply`, { to: "procedure", digest }),
+    send<Replaced>("POST", `/api/suggestions/${index}/apply`, { to: "procedure", digest }),
 };
 
 /** A picture drawn by the server, for browsers without WebGL. */

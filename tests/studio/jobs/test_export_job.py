@@ -9,6 +9,7 @@ import pytest
 from broken_disk import full_after, killed
 from shapewright.modelling.solids import box
 from shapewright.shapes.files import encode
+from shapewright.studio.jobs.events import Reporter
 from shapewright.studio.jobs.export_job import pack
 
 
@@ -34,16 +35,16 @@ def test_replicas_keep_their_labels_in_another_format(tmp_path, request_):
     entry = {"name": "a", "slug": "a", "replica": "replicas/a.glb", "parameters": {"height": 1.0}}
     record = {"format": 1, "procedure": {"name": "stool"}, "references": [entry, {"replica": None}]}
     (run / "iteration.json").write_text(json.dumps(record))
-    file = pack({**request_, "what": ["replicas"], "format": "ply"}, io.StringIO())
+    file = pack({**request_, "what": ["replicas"], "format": "ply"}, Reporter(io.BytesIO()))
     data = zipfile.ZipFile(file).read("replicas/a.ply")
     assert b"comment label 0 seat\n" in data and b"element vertex 16\n" in data and b'"reference":"a"' in data
 
 
 def test_an_export_is_whole_or_not_there(tmp_path, request_):
     with pytest.raises(OSError, match="File too large"), full_after(100):
-        pack(request_, io.StringIO())
+        pack(request_, Reporter(io.BytesIO()))
     assert not list((tmp_path / "scratch").iterdir())
-    killed(lambda: pack(request_, io.StringIO()))
+    killed(lambda: pack(request_, Reporter(io.BytesIO())))
     assert not list((tmp_path / "scratch").glob("*.zip"))
-    file = pack(request_, io.StringIO())
+    file = pack(request_, Reporter(io.BytesIO()))
     assert zipfile.ZipFile(file).namelist() == ["report.html"]

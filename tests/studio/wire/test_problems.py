@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from shapewright.building.outcomes import Failure
@@ -43,7 +44,7 @@ def test_error_of_a_shape(tmp_path: Path) -> None:
     assert found == Problem(
         "raised", "ZeroDivisionError: division by zero", "procedure.py", 6, "return 1 / 0", (), {"x": 0.5}
     )
-    assert Problem.from_record(found.record()) == found
+    assert msgspec.json.decode(msgspec.json.encode(found), type=Problem) == found
 
 
 def test_place_inside_a_message(tmp_path: Path) -> None:
@@ -79,4 +80,4 @@ def test_alike_problems_are_told_once() -> None:
     ]
     found = together(told)
     assert [each.slugs for each in found] == [("c",), ("d",), ("a", "b")]
-    assert found[2].record()["count"] == 2
+    assert found[2].count == 2

@@ -21,6 +21,7 @@ from shapewright.parameters import Parameters, to_record
 from shapewright.procedures import Procedure, ProcedureError, describe, load_procedure, place_of
 from shapewright.shapes import Mesh
 from shapewright.studio.bench.built import Built, Version
+from shapewright.studio.wire.board import Parameter
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 
 LOADING_SECONDS = 20.0
@@ -86,7 +87,7 @@ def _received(requests: BinaryIO) -> Any:
 
 
 def _version(procedure: Procedure) -> Version:
-    parameters = [{**to_record(p), "conditional": p.when is not None} for p in procedure.space]
+    parameters = [Parameter(**to_record(p), conditional=p.when is not None) for p in procedure.space]
     return Version(procedure.name, parameters, procedure.space.defaults)
 
 

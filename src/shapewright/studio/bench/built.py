@@ -1,26 +1,33 @@
-"""What a builder process tells its bench: the version of the procedure that it read, and every shape."""
+"""What a builder process answers: the version of the procedure that it read, and every shape."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from shapewright.building.outcomes import Build
 from shapewright.parameters import Parameters
+from shapewright.studio.wire.board import Parameter
 
 
 @dataclass(frozen=True)
 class Version:
-    """A procedure that was read: its name, its parameters as plain values, and their defaults."""
+    """A procedure that was read.
+
+    parameters: as the page gets them.
+    """
 
     name: str
-    parameters: list[dict[str, Any]]
+    parameters: list[Parameter]
     defaults: Parameters
 
 
 @dataclass(frozen=True)
 class Built:
-    """A build, the names of the parameters that matter there, and of those at an end of their Range."""
+    """A shape that was built, or could not be.
+
+    active: names of the parameters that matter there.
+    at_limit: names of those at an end of their Range.
+    """
 
     build: Build
     active: tuple[str, ...] = ()

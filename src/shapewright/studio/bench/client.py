@@ -6,15 +6,16 @@ import asyncio
 import itertools
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Literal
 
+from shapewright.studio.bench.messages import Answer, Answered, Fetch, LiveMessage, News, Ready, Reply, Request
 from shapewright.studio.project.workspace import Missing
 from shapewright.studio.wire.child import Child, Frame, on_this_loop
+from shapewright.studio.wire.values import Slug
 
 _PROGRAM = "shapewright.studio.bench.program"
 _REPLY_SECONDS = 60.0
 _SOON, _OFTEN = 5.0, 3
-Message = dict[str, Any]
 
 
 class BenchError(Exception):
@@ -24,20 +25,22 @@ class BenchError(Exception):
 class BenchProcess:
     """A bench that is always there, or soon again.
 
-    heard: called with every message and payload for the session. live: with a client's number, a message or None, and a
-    payload. started: after every start, when there is everything to tell it anew. lost: when it died.
+    heard: called with every message for the session, and its payload.
+    answered: called with a page's number, a message for it or None, and a payload.
+    started: called after every start; the bench then knows nothing.
+    lost: called when it has died.
     """
 
     def __init__(
         self,
-        heard: Callable[[Message, bytes], object],
-        live: Callable[[int, Message | None, bytes], object],
+        heard: Callable[[News, bytes], object],
+        answered: Callable[[int, LiveMessage | None, bytes], object],
         started: Callable[[], object],
         lost: Callable[[], object],
     ) -> None:
-        self._heard, self._live, self._started, self._lost = heard, live, started, lost
+        self._heard, self._answered, self._started, self._lost = heard, answered, started, lost
         self._child: Child | None = None
-        self._replies: dict[int, asyncio.Future[tuple[Message, bytes]]] = {}
+        self._replies: dict[int, asyncio.Future[tuple[Reply, bytes]]] = {}
         self._numbers = itertools.count(1)
 
     @property
@@ -50,7 +53,7 @@ class BenchProcess:
         while hasty < _OFTEN:
             begun = time.monotonic()
             frames: asyncio.Queue[Frame | None] = asyncio.Queue()
-            child = Child(_PROGRAM, on_this_loop(frames.put_nowait))
+            child = Child(_PROGRAM, on_this_loop(frames.put_nowait), Answer)
             try:
                 while frame := await frames.get():
                     self._hear(child, *frame)
@@ -65,38 +68,41 @@ class BenchProcess:
             self._lost()
         raise BenchError(f"the bench process ended {_OFTEN} times as soon as it had started; the terminal says more")
 
-    def _hear(self, child: Child, envelope: Message, payload: bytes) -> None:
-        message = envelope["message"]
-        if envelope["to"] == "live":
-            self._live(envelope["client"], message, payload)
-        elif envelope["to"] == "reply":
-            reply = self._replies.pop(envelope["request"], None)
-            if reply and not reply.done():
-                reply.set_result((message, payload))
-        elif message["type"] == "ready":
-            self._child = child
-            self._started()
-        else:
-            self._heard(message, payload)
+    def _hear(self, child: Child, message: Answer, payload: bytes) -> None:
+        match message:
+            case Ready():
+                self._child = child
+                self._started()
+            case Answered():
+                self._answered(message.client, message.message, payload)
+            case Reply():
+                reply = self._replies.pop(message.request, None)
+                if reply and not reply.done():
+                    reply.set_result((message, payload))
+            case _:
+                self._heard(message, payload)
 
-    def ask(self, request: Message) -> None:
+    def ask(self, request: Request) -> None:
         """Send a request; without a bench it is lost, and ``started`` will say when there is one again."""
         if self._child:
             self._child.send(request)
 
-    async def fetch(self, request: Message) -> tuple[Message, bytes]:
-        """The answer to a request of kind ``fetch``. Raises BenchError, Missing where there is no such thing."""
+    async def fetch(self, slug: Slug, what: Literal["about", "shape", "render"], **details: Any) -> tuple[Any, bytes]:
+        """A message about a reference, and a payload; details: see Fetch.
+
+        Raises BenchError, Missing where there is no such thing.
+        """
         if not self.ready:
             raise BenchError("the bench is starting; ask again in a moment")
         number = next(self._numbers)
         self._replies[number] = reply = asyncio.get_running_loop().create_future()
-        self.ask({**request, "do": "fetch", "request": number})
+        self.ask(Fetch(request=number, slug=slug, what=what, **details))
         try:
-            message, payload = await asyncio.wait_for(reply, _REPLY_SECONDS)
+            answer, payload = await asyncio.wait_for(reply, _REPLY_SECONDS)
         except TimeoutError as error:
             raise BenchError("the bench did not answer in time") from error
         finally:
             self._replies.pop(number, None)
-        if "error" in message:
-            raise Missing(message["error"])
-        return message, payload
+        if answer.error is not None:
+            raise Missing(answer.error)
+        return answer.message, payload

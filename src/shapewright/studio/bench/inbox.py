@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from typing import Any
 
-Request = dict[str, Any]
+from shapewright.studio.bench.messages import End, Fetch, Live, Load, Request
 
 
 class Inbox:
@@ -19,19 +18,19 @@ class Inbox:
     def __init__(self, interrupt: threading.Event) -> None:
         self._interrupt = interrupt
         self._arrived = threading.Condition()
-        self._live: dict[int, Request] = {}
+        self._live: dict[int, Live] = {}
         self._others: deque[Request] = deque()
 
     def put(self, request: Request) -> None:
         with self._arrived:
-            if request["do"] == "evaluate":
-                self._live.pop(request["client"], None)
-                self._live[request["client"]] = request
+            if isinstance(request, Live):
+                self._live.pop(request.client, None)
+                self._live[request.client] = request
             else:
-                if request["do"] == "load":
-                    self._others = deque(other for other in self._others if other["do"] != "load")
+                if isinstance(request, Load):
+                    self._others = deque(other for other in self._others if not isinstance(other, Load))
                 self._others.append(request)
-            if request["do"] in ("load", "end"):
+            if isinstance(request, Load | End):
                 self._interrupt.set()
             self._arrived.notify()
 
@@ -43,16 +42,16 @@ class Inbox:
     @property
     def outdated(self) -> bool:
         """Whether what is being answered is no longer what anyone waits for."""
-        return bool(self._live) or any(request["do"] in ("load", "end") for request in list(self._others))
+        return bool(self._live) or any(isinstance(request, Load | End) for request in list(self._others))
 
     def take(self, wait: bool) -> Request | None:
         """The next request; without one wait for it, or return None."""
         with self._arrived:
             while wait and not self.waiting:
                 self._arrived.wait()
-            if self._live and (not self._others or self._others[0]["do"] == "fetch"):
+            if self._live and (not self._others or isinstance(self._others[0], Fetch)):
                 return self._live.pop(next(iter(self._live)))
             request = self._others.popleft() if self._others else None
-            if request and request["do"] == "load":
+            if isinstance(request, Load):
                 self._interrupt.clear()
             return request

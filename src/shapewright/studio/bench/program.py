@@ -7,7 +7,7 @@ first; pictures and sweeps over the whole collection are done in between, shape 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -21,21 +21,45 @@ from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.studio.bench.gallery import Gallery, Shelf, shape_bytes
-from shapewright.studio.bench.inbox import Inbox, Request
+from shapewright.studio.bench.inbox import Inbox
+from shapewright.studio.bench.messages import (
+    Answer,
+    Answered,
+    Drawn,
+    End,
+    Fetch,
+    First,
+    Live,
+    LiveMessage,
+    Load,
+    Loaded,
+    Pictures,
+    Ready,
+    References,
+    Reply,
+    Request,
+    SweepOrder,
+    Unreadable,
+    Unusable,
+)
 from shapewright.studio.bench.residual_colours import ResidualColours
-from shapewright.studio.bench.sweep import Sweep
-from shapewright.studio.bench.telling import (
+from shapewright.studio.bench.shape_messages import (
     about,
     distance_message,
     drawing_message,
     mesh_message,
-    replica_header,
+    outcome,
     residual_message,
 )
+from shapewright.studio.bench.sweep import Sweep
 from shapewright.studio.bench.workshop import Broken, Workshop
-from shapewright.studio.project.listing import Listing, Origin, listing
+from shapewright.studio.project.listing import Listing, listing
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
-from shapewright.studio.wire.problems import of_failure
+from shapewright.studio.wire.problems import Problem, of_failure
+from shapewright.studio.wire.references import About
+from shapewright.studio.wire.requests import Evaluate
+from shapewright.studio.wire.shapes import DrawingMessage, FailedMessage
+from shapewright.studio.wire.values import Slug, Values
 
 _MEMORY = 24 * 2**20
 
@@ -51,30 +75,34 @@ class Bench:
         self._cache: Path | None = None
         self._settings = Settings()
         self._root = Path()
-        self._first: list[str] = []
+        self._first: list[Slug] = []
         self._tasks: dict[str, Iterator[None]] = {}
 
     def run(self) -> None:
         """Serve; tasks are moved on while no request waits."""
-        handlers: Mapping[str, Callable[[Request], None]] = {
-            "references": self._references,
-            "pictures": self._pictures,
-            "first": self._put_first,
-            "load": self._load,
-            "sweep": self._sweep,
-            "evaluate": self._evaluate,
-            "fetch": self._fetch,
-        }
-        self._tell({"type": "ready"})
+        self._send(Ready())
         while True:
             request = self._inbox.take(wait=not self._tasks)
-            if request is None:
-                self._advance(next(iter(self._tasks)))
-            elif request["do"] == "end":
-                self._workshop.close()
-                return
-            else:
-                handlers[request["do"]](request)
+            match request:
+                case None:
+                    self._advance(next(iter(self._tasks)))
+                case References():
+                    self._list(request)
+                case Pictures():
+                    self._tasks["pictures"] = self._draw(request.slugs)
+                case First():
+                    self._first = request.slugs
+                case Load():
+                    self._load(request)
+                case SweepOrder():
+                    self._sweep(request)
+                case Live():
+                    self._evaluate(request.client, request.evaluate)
+                case Fetch():
+                    self._fetch(request)
+                case End():
+                    self._workshop.close()
+                    return
 
     def _advance(self, name: str) -> None:
         try:
@@ -83,136 +111,124 @@ class Bench:
             del self._tasks[name]
         except Broken as error:
             del self._tasks[name]
-            self._tell({"type": "broken", "problem": error.problem.record()})
+            self._send(Unusable(load=None, problem=error.problem))
 
-    def _tell(self, message: Mapping[str, Any], payload: bytes = b"") -> None:
-        write_frame(self._answers, {"to": "session", "message": message}, payload)
+    def _send(self, message: Answer, payload: bytes = b"") -> None:
+        write_frame(self._answers, message, payload)
 
-    def _references(self, request: Request) -> None:
-        self._cache = Path(request["cache"]) if request["cache"] else None
-        self._settings = Settings(seed=request["seed"], align=request["align"])
+    def _list(self, request: References) -> None:
+        self._cache = Path(request.cache) if request.cache else None
+        self._settings = Settings(seed=request.seed, align=request.align)
         self._targets = Shelf(_MEMORY, _bytes)
         try:
-            self._gallery = Gallery(listing(Origin(**request["origin"])), self._cache)
-        except CollectionError:  # the server lists the references too, and tells the author
+            self._gallery = Gallery(listing(request.origin), self._cache)
+        except CollectionError:  # the server lists the references too, and reports it to the author
             self._gallery = Gallery(Listing({}, {}), None)
 
-    def _put_first(self, request: Request) -> None:
-        self._first = request["slugs"]
+    def _draw(self, slugs: list[Slug]) -> Iterator[None]:
+        remaining = dict.fromkeys(slug for slug in slugs if slug in self._gallery.listed.sources)
+        while remaining:
+            slug = next((seen for seen in self._first if seen in remaining), None) or next(iter(remaining))
+            del remaining[slug]
+            try:
+                self._send(Drawn(slug=slug), self._gallery.picture(slug))
+            except (UnreadableError, ValueError) as error:
+                self._send(Unreadable(slug=slug, reason=str(error)))
+            yield
 
-    def _pictures(self, request: Request) -> None:
-        def draw() -> Iterator[None]:
-            remaining = dict.fromkeys(slug for slug in request["slugs"] if slug in self._gallery.listed.sources)
-            while remaining:
-                slug = next((each for each in self._first if each in remaining), None) or next(iter(remaining))
-                del remaining[slug]
-                try:
-                    self._tell({"type": "picture", "slug": slug}, self._gallery.picture(slug))
-                except (UnreadableError, ValueError) as error:
-                    self._tell({"type": "unreadable", "slug": slug, "reason": str(error)})
-                yield
-
-        self._tasks["pictures"] = draw()
-
-    def _load(self, request: Request) -> None:
+    def _load(self, request: Load) -> None:
         self._tasks.pop("sweep", None)
-        path = Path(request["procedure"])
+        path = Path(request.procedure)
         self._root = path.parent
         try:
-            version = self._workshop.load(path, Limits(request["seconds"], request["memory_mb"]))
+            version = self._workshop.load(path, Limits(request.seconds, request.memory_mb))
         except Broken as error:
-            self._tell({"type": "broken", "load": request["load"], "problem": error.problem.record()})
+            self._send(Unusable(load=request.load, problem=error.problem))
         else:
-            self._tell({"type": "loaded", "load": request["load"], "version": vars(version)})
+            self._send(Loaded(load=request.load, **vars(version)))
 
-    def _sweep(self, request: Request) -> None:
+    def _sweep(self, request: SweepOrder) -> None:
         if self._workshop.open:
-            self._tasks["sweep"] = Sweep(
-                request["sweep"],
-                request["items"],
-                lambda: self._first,
-                self._root,
-                self._workshop,
-                self._target,
-                self._tell,
-            ).run()
+            first = lambda: self._first  # noqa: E731 - it changes while the sweep goes on
+            sweep = Sweep(request.sweep, request.items, first, self._root, self._workshop, self._target, self._send)
+            self._tasks["sweep"] = sweep.run()
 
-    def _target(self, slug: str) -> Target | None:
+    def _target(self, slug: Slug) -> Target | None:
         """None for a reference that is not there or cannot be read."""
         try:
             return self._targets.get(slug) or self._targets.put(slug, self._new_target(slug))
         except (KeyError, UnreadableError):
             return None
 
-    def _new_target(self, slug: str) -> Target:
+    def _new_target(self, slug: Slug) -> Target:
         return target_of(self._gallery[slug].shape, self._settings, self._cache)
 
-    def _evaluate(self, request: Request) -> None:
+    def _evaluate(self, client: int, request: Evaluate) -> None:
         """Answer in steps; the later ones are left out when something newer waits."""
         if not self._workshop.open:
             return
-        case = {"id": request["id"], "slug": request["slug"]}
+        number, slug = request.id, request.slug
 
-        def answer(message: Mapping[str, Any] | None, payload: bytes = b"") -> None:
-            envelope = {"to": "live", "client": request["client"], "message": message}
-            write_frame(self._answers, envelope, payload)
+        def answer(message: LiveMessage | None, payload: bytes = b"") -> None:
+            self._send(Answered(client=client, message=message), payload)
+
+        def fail(problem: Problem, active: list[str] | None = None) -> None:
+            answer(FailedMessage(id=number, slug=slug, problem=problem, active=active))
 
         try:
-            built = self._workshop.build(request["parameters"])
+            built = self._workshop.build(request.parameters or {})
         except Broken as error:
-            answer({"type": "failed", **case, "problem": error.problem.record(), "active": None})
+            fail(error.problem)
             return
         if built is None:
             return
         made = built.build
         if made.failure:
-            found = of_failure(made.failure, self._root, made.parameters)
-            active = list(built.active) or None
-            answer({"type": "failed", **case, "problem": found.record(), "active": active})
+            fail(of_failure(made.failure, self._root, made.parameters), list(built.active) or None)
             return
         assert made.shape is not None
-        replica, header = made.shape.normalised(), {**case, **replica_header(built)}
-        target = self._target(request["slug"]) if request["slug"] is not None else None
+        replica = made.shape.normalised()
+        head: dict[str, Any] = {"id": number, "slug": slug, "shape": "replica", **outcome(built)}
+        target = self._target(slug) if slug is not None else None
         if isinstance(replica, Mesh):
-            answer(None, mesh_message(replica, header))
+            answer(None, mesh_message(replica, **head))
         else:
             reference = target.shape if target and isinstance(target.shape, Drawing) else None
-            answer(drawing_message(replica, reference, header))
-        if request["slug"] is None or self._inbox.outdated:
+            answer(drawing_message(replica, reference, **head))
+        if slug is None or self._inbox.outdated:
             return
-        answer(distance_message(target.measures(replica) if target else Measures(), case))
-        if not request["residuals"] or self._inbox.outdated:
+        answer(distance_message(target.measures(replica) if target else Measures(), number, slug))
+        if not request.residuals or self._inbox.outdated:
             return
         if target is None or not isinstance(target.shape, Mesh) or not isinstance(replica, Mesh):
             return
         if self._colours is None or self._colours.reference is not target.shape:
             self._colours = ResidualColours(target.shape)
         for side, residual in self._colours.of(replica).items():
-            answer(None, residual_message(residual, {**case, "shape": side}))
+            answer(None, residual_message(residual, id=number, slug=slug, shape=side))
 
-    def _fetch(self, request: Request) -> None:
-        message: dict[str, Any] = {}
-        payload = b""
+    def _fetch(self, request: Fetch) -> None:
+        message: About | DrawingMessage | None = None
+        payload, wrong = b"", None
         try:
-            reference = self._gallery[request["slug"]]
-            if request["what"] == "about":
+            reference = self._gallery[request.slug]
+            shape = reference.shape
+            if request.what == "about":
                 message = about(reference)
-            elif request["what"] == "shape":
-                header = {"id": 0, "slug": request["slug"], "shape": "reference"}
-                if isinstance(reference.shape, Mesh):
-                    payload = mesh_message(reference.shape, header)
-                else:
-                    message = drawing_message(reference.shape, None, header)
+            elif request.what == "render":
+                shape = self._replica(request.parameters) if request.parameters is not None else shape
+                camera = replace(THUMBNAIL, azimuth=request.azimuth, elevation=request.elevation)
+                payload = thumbnail(shape, request.size, camera)
+            elif isinstance(shape, Mesh):
+                payload = mesh_message(shape, id=0, slug=request.slug, shape="reference")
             else:
-                shape = self._replica(request) if request["parameters"] is not None else reference.shape
-                camera = replace(THUMBNAIL, azimuth=request["azimuth"], elevation=request["elevation"])
-                payload = thumbnail(shape, request["size"], camera)
+                message = drawing_message(shape, None, id=0, slug=request.slug, shape="reference")
         except (KeyError, UnreadableError, ValueError, Broken) as error:
-            message = {"error": str(error)}
-        write_frame(self._answers, {"to": "reply", "request": request["request"], "message": message}, payload)
+            wrong = str(error)
+        self._send(Reply(request=request.request, message=message, error=wrong), payload)
 
-    def _replica(self, request: Request) -> Shape:
-        built = self._workshop.build(request["parameters"]) if self._workshop.open else None
+    def _replica(self, parameters: Values) -> Shape:
+        built = self._workshop.build(parameters) if self._workshop.open else None
         if built is None or built.build.shape is None:
             raise ValueError("there is no replica")
         return built.build.shape
@@ -229,9 +245,9 @@ def main() -> None:
     inbox = Inbox(workshop.interrupt)
 
     def listen() -> None:
-        while frame := read_frame(requests):
+        while frame := read_frame(requests, Request):
             inbox.put(frame[0])
-        inbox.put({"do": "end"})
+        inbox.put(End())
 
     threading.Thread(target=listen, daemon=True).start()
     try:

@@ -5,35 +5,42 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from shapewright.judging.target import Target
-from shapewright.parameters import Parameters
 from shapewright.studio.bench.built import Built
 from shapewright.studio.bench.gallery import Shelf, picture, shape_bytes
-from shapewright.studio.bench.telling import plain
+from shapewright.studio.bench.messages import Measured, News, SweepEnded, Swept
+from shapewright.studio.bench.shape_messages import plain
 from shapewright.studio.bench.workshop import Workshop
 from shapewright.studio.wire.problems import of_failure
+from shapewright.studio.wire.values import Slug, Values
 
 PICTURE = 160
 """Pixels of a replica's thumbnail while it may still change."""
 _PATIENCE = 3
 """Shapes that exceed the time limit, after which a sweep is given up."""
 _MEMORY = 24 * 2**20
-Tell = Callable[[Mapping[str, Any], bytes], None]
 
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """number: told with every answer. items: parameters by slug. first: says which slugs the author is looking at."""
+    """A replica for each of some parameters.
+
+    number: goes with every answer.
+    items: parameters by slug.
+    first: says which references the author looks at.
+    root: folder that problems name files relative to.
+    target: what a reference's replicas are measured against; None where it cannot be read.
+    send: takes an answer and its payload.
+    """
 
     number: int
-    items: Mapping[str, Parameters]
-    first: Callable[[], list[str]]
+    items: Mapping[Slug, Values]
+    first: Callable[[], list[Slug]]
     root: Path
     workshop: Workshop
     target: Callable[[str], Target | None]
-    tell: Tell
+    send: Callable[[News, bytes], None]
 
     def run(self) -> Iterator[None]:
         """One shape a step. Ends early when it is interrupted, or when too many shapes exceed the time limit.
@@ -47,11 +54,11 @@ class Sweep:
             if built is None:
                 return
             shelf.put(slug, built)
-            self._tell_built(slug, built)
+            self._send_built(slug, built)
             failure = built.build.failure
             late += failure is not None and failure.kind == "time"
             if late >= _PATIENCE:
-                self._say({"type": "swept all", "given_up": True})
+                self.send(SweepEnded(sweep=self.number, given_up=True), b"")
                 return
             yield
         for slug in self._order():
@@ -61,26 +68,28 @@ class Sweep:
             target = self.target(slug)
             if target and again.build.shape is not None:
                 distance, _ = target.nearest(again.build.shape.normalised())
-                self._say({"type": "measured", "slug": slug, "distance": plain(distance)})
+                self.send(Measured(sweep=self.number, slug=slug, distance=plain(distance)), b"")
             yield
-        self._say({"type": "swept all", "given_up": False})
+        self.send(SweepEnded(sweep=self.number, given_up=False), b"")
 
-    def _order(self) -> Iterator[str]:
+    def _order(self) -> Iterator[Slug]:
         remaining = dict.fromkeys(self.items)
         while remaining:
-            slug = next((each for each in self.first() if each in remaining), None) or next(iter(remaining))
+            slug = next((seen for seen in self.first() if seen in remaining), None) or next(iter(remaining))
             del remaining[slug]
             yield slug
 
-    def _tell_built(self, slug: str, built: Built) -> None:
+    def _send_built(self, slug: Slug, built: Built) -> None:
         made = built.build
-        found = of_failure(made.failure, self.root, made.parameters).record() if made.failure else None
-        message = {"type": "swept", "slug": slug, "parameters": made.parameters, "problem": found}
-        drawn = picture(made.shape, PICTURE) if made.shape is not None else b""
-        self._say({**message, "active": list(built.active), "at_limit": list(built.at_limit)}, drawn)
-
-    def _say(self, message: Mapping[str, Any], payload: bytes = b"") -> None:
-        self.tell({**message, "sweep": self.number}, payload)
+        message = Swept(
+            sweep=self.number,
+            slug=slug,
+            parameters=made.parameters,
+            active=list(built.active),
+            at_limit=list(built.at_limit),
+            problem=of_failure(made.failure, self.root, made.parameters) if made.failure else None,
+        )
+        self.send(message, picture(made.shape, PICTURE) if made.shape is not None else b"")
 
 
 def _bytes(built: Built) -> int:

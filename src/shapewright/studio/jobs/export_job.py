@@ -6,13 +6,14 @@ import re
 import time
 import zipfile
 from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from shapewright.runs.folder import read_record
 from shapewright.storage import remove_leftovers, scratch_folder, whole_file
-from shapewright.studio.jobs.fit_job import fail, streams, tell
+from shapewright.studio.jobs.events import Reporter, begin
 
 if TYPE_CHECKING:
     from shapewright.shapes.files import Format
@@ -21,7 +22,7 @@ _KEPT = 5
 """Exports that are left in the project's scratch folder; older ones are deleted."""
 
 
-def pack(request: Mapping[str, Any], events: BinaryIO) -> Path:
+def pack(request: Mapping[str, Any], reporter: Reporter) -> Path:
     """Write the ZIP that a request describes; returns its path."""
     folder = Path(request["folder"])
     folder.mkdir(parents=True, exist_ok=True)
@@ -29,16 +30,16 @@ def pack(request: Mapping[str, Any], events: BinaryIO) -> Path:
     stem = re.sub(r"[^A-Za-z0-9_-]+", "-", "-".join([Path(request["procedure"]).resolve().parent.name, *_names(run)]))
     file = folder / f"{stem.strip('-')}-{time.strftime('%Y%m%d-%H%M%S')}.zip"
     remove_leftovers(folder)
-    with whole_file(file) as partial, zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
+    with whole_file(file) as unfinished, zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED) as archive:
         if run and "report" in request["what"]:
             archive.write(run / "report.html", "report.html")
         if run and "parameters" in request["what"]:
             archive.write(run / "parameters.csv", "parameters.csv")
         if run and "replicas" in request["what"]:
-            for name, data in _replicas(run, request["format"], events):
+            for name, data in _replicas(run, request["format"], reporter):
                 archive.writestr(f"replicas/{name}", data)
         if "samples" in request["what"]:
-            _add_samples(request, archive, events)
+            _add_samples(request, archive, reporter)
     for old in sorted(folder.glob("*.zip"), key=lambda path: path.stat().st_mtime)[:-_KEPT]:
         old.unlink()
     return file
@@ -48,7 +49,7 @@ def _names(run: Path | None) -> list[str]:
     return [run.name] if run else []
 
 
-def _replicas(run: Path, format: Format, events: BinaryIO) -> Iterator[tuple[str, bytes]]:
+def _replicas(run: Path, format: Format, reporter: Reporter) -> Iterator[tuple[str, bytes]]:
     """Names and contents of the replicas' files; each says in its extras which reference it replicates."""
     from shapewright.runs.result import read_replica
     from shapewright.shapes.files import encode
@@ -64,10 +65,10 @@ def _replicas(run: Path, format: Format, events: BinaryIO) -> Iterator[tuple[str
             shape = read_replica(run, entry)
             assert shape is not None
             yield f"{entry['slug']}.{format}", encode(shape, format, {**extras, "parameters": entry["parameters"]})
-        tell(events, event="progress", stage="replicas", done=done + 1, total=len(entries), remark="")
+        reporter.stage("replicas", done + 1, len(entries))
 
 
-def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, events: BinaryIO) -> None:
+def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, reporter: Reporter) -> None:
     from shapewright.fitting.samples import write_samples
     from shapewright.procedures import load_procedure
 
@@ -79,9 +80,7 @@ def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, events: B
             home,
             request["format"],
             request["seed"],
-            progress=lambda done, total: tell(
-                events, event="progress", stage="samples", done=done, total=total, remark=""
-            ),
+            progress=partial(reporter.stage, "samples"),
         )
         for path in sorted(home.iterdir()):
             archive.write(path, f"samples/{path.name}")
@@ -91,13 +90,13 @@ def main() -> None:
     from shapewright.procedures import ProcedureError
     from shapewright.runs.folder import RunError
 
-    request, events = streams()
+    request, reporter = begin()
     try:
-        file = pack(request, events)
+        file = pack(request, reporter)
     except (ProcedureError, RunError, ValueError, OSError) as error:
-        fail(events, error, "export", request["root"])
+        reporter.fail(error, "export", request["root"])
     url = f"/api/exports/{quote(file.name)}"
-    tell(events, event="done", result={"url": url, "bytes": file.stat().st_size})
+    reporter.done(url=url, bytes=file.stat().st_size)
 
 
 if __name__ == "__main__":

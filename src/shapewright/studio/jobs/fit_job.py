@@ -1,62 +1,22 @@
-"""The program of a fit, beside the server: progress, early answers and the finished run, told in frames."""
+"""The program of a fit, beside the server: it reports progress, early answers and the finished run."""
 
 from __future__ import annotations
 
 import json
-import os
-import signal
-import sys
-import threading
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, NoReturn
+from typing import TYPE_CHECKING, Any
 
-from shapewright.progress import Progress
+from shapewright.studio.jobs.events import Reporter, begin
 from shapewright.studio.project.listing import Origin, listing
-from shapewright.studio.wire.child import own_streams, read_frame, write_frame
-from shapewright.studio.wire.problems import of_error
+from shapewright.studio.wire.problems import ProblemKind
 
 if TYPE_CHECKING:
     from shapewright.references import Collection
 
 PREDICTIONS = "predictions.json"
 """In a run's folder: what the network said of every reference before the search, and how sure it was."""
-
-
-def streams() -> tuple[dict[str, Any], BinaryIO]:
-    """The request, and a stream for events.
-
-    When the stream of requests closes the studio has gone, and so does this program, with all that it started. It gives
-    way to live evaluation.
-    """
-    if hasattr(os, "nice"):
-        os.nice(5)
-    requests, events = own_streams()
-    frame = read_frame(requests)
-    if frame is None:
-        sys.exit(1)
-
-    def watch() -> None:
-        while read_frame(requests):
-            pass
-        if os.name == "posix":
-            os.killpg(os.getpgrp(), signal.SIGKILL)
-        os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
-    return frame[0], events
-
-
-def tell(events: BinaryIO, **event: Any) -> None:
-    """Write one event."""
-    write_frame(events, event)
-
-
-def fail(events: BinaryIO, error: Exception, kind: str, root: str) -> NoReturn:
-    """End the program with the problem that an error is. root: folder that the author's file is named relative to."""
-    tell(events, event="failed", problem=of_error(error, kind, Path(root)).record())
-    sys.exit(1)
 
 
 def collection(origin: Origin) -> Collection:
@@ -70,7 +30,7 @@ def collection(origin: Origin) -> Collection:
     return replace(whole, references=inside, skipped={**whole.skipped, **listed.skipped})
 
 
-def fit(request: Mapping[str, Any], events: BinaryIO) -> str:
+def fit(request: Mapping[str, Any], reporter: Reporter) -> str:
     """Fit as the request says and save the run; returns its name."""
     from shapewright.fitting.fit import fit as iterate
     from shapewright.procedures import load_procedure
@@ -83,16 +43,9 @@ def fit(request: Mapping[str, Any], events: BinaryIO) -> str:
     procedure, references = load_procedure(request["procedure"]), collection(Origin(**request["origin"]))
     previous = Iteration.load(request["previous"]) if request["previous"] else None
 
-    def listen(progress: Progress) -> None:
-        if progress.answer is not None:
-            tell(events, event="answer", kind=progress.answer_kind, answer=dict(progress.answer))
-            return
-        told = {name: getattr(progress, name) for name in ("stage", "done", "total", "remark")}
-        tell(events, event="progress", **told, losses=progress.losses)
-
     settings = Settings.from_record(request["settings"])
-    iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
-    tell(events, event="progress", stage="save", done=0, total=1, remark="", losses=None)
+    iteration = iterate(procedure, references, settings, reporter.progress, cache_folder(), previous)
+    reporter.stage("save", 0, 1)
     folder = next_run(Path(request["runs"])).absolute()
     before = previous_run(folder, set(iteration.names))
     iteration.save(folder, lambda partial: write_report(partial, before))
@@ -127,11 +80,13 @@ def _key(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
-def _kind(error: Exception) -> str:
+def _kind(error: Exception) -> ProblemKind:
     from shapewright.procedures import ProcedureError
     from shapewright.references import CollectionError
 
-    return {ProcedureError: "load", CollectionError: "references"}.get(type(error), "fit")
+    if isinstance(error, ProcedureError):
+        return "load"
+    return "references" if isinstance(error, CollectionError) else "fit"
 
 
 def main() -> None:
@@ -139,12 +94,12 @@ def main() -> None:
     from shapewright.references import CollectionError
     from shapewright.runs.folder import RunError
 
-    request, events = streams()
+    request, reporter = begin()
     try:
-        name = fit(request, events)
+        name = fit(request, reporter)
     except (ProcedureError, CollectionError, RunError, ValueError, OSError) as error:
-        fail(events, error, _kind(error), request["root"])
-    tell(events, event="done", result={"run": name})
+        reporter.fail(error, _kind(error), request["root"])
+    reporter.done(run=name)
 
 
 if __name__ == "__main__":

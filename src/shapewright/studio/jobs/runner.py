@@ -7,34 +7,33 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
-from shapewright.progress import AnswerKind
+from shapewright.studio.jobs.events import Advanced, AnyEvent, Done, Failed, Guessed
 from shapewright.studio.wire.child import Child, Frame, on_this_loop
+from shapewright.studio.wire.jobs import Answer, Epoch, Job, JobKind, JobResult, JobStage, JobState
 from shapewright.studio.wire.problems import Problem
-
-Kind = Literal["fit", "explain", "export"]
-State = Literal["idle", "running", "cancelling", "done", "cancelled", "failed"]
 
 
 @dataclass(eq=False)
-class Job:
-    """One kind of work, of which at most one runs at a time.
+class Runner:
+    """One kind of work, of which at most one runs at a time; see ``wire.jobs.Job`` for what is not told here.
 
-    root: folder that problems are named relative to. changed: called after every change of the record. told: called
-    with every event that is not progress.
+    root: folder that problems name files relative to.
+    changed: called after every change.
+    guessed: called with parameters that are known before the end of a fit.
     """
 
-    kind: Kind
+    kind: JobKind
     root: Path
-    changed: Callable[[Job], object]
-    told: Callable[[dict[str, Any]], object]
-    state: State = "idle"
-    stages: list[dict[str, Any]] = field(default_factory=list)
-    curve: list[dict[str, Any]] = field(default_factory=list)
-    answer: AnswerKind | None = None
+    changed: Callable[[Runner], object]
+    guessed: Callable[[Guessed], object]
+    state: JobState = "idle"
+    stages: list[JobStage] = field(default_factory=list)
+    curve: list[Epoch] = field(default_factory=list)
+    answer: Answer | None = None
     problem: Problem | None = None
-    result: dict[str, Any] | None = None
+    result: JobResult | None = None
     _started: float = 0.0
     _seconds: float = 0.0
     _stage_started: float = 0.0
@@ -45,12 +44,18 @@ class Job:
     def running(self) -> bool:
         return self.state in ("running", "cancelling")
 
-    def record(self) -> dict[str, Any]:
+    def job(self) -> Job:
         """As the page gets it."""
-        names = ("kind", "state", "stages", "curve", "answer", "result")
-        seconds = time.monotonic() - self._started if self.running else self._seconds
-        found = self.problem.record() if self.problem else None
-        return {**{name: getattr(self, name) for name in names}, "seconds": round(seconds, 2), "problem": found}
+        return Job(
+            kind=self.kind,
+            state=self.state,
+            stages=self.stages,
+            curve=self.curve,
+            answer=self.answer,
+            seconds=round(time.monotonic() - self._started if self.running else self._seconds, 2),
+            problem=self.problem,
+            result=self.result,
+        )
 
     def start(self, module: str, request: dict[str, Any]) -> None:
         """Run a program with a request; nothing else of this kind may be running."""
@@ -76,14 +81,14 @@ class Job:
         try:
             frames: asyncio.Queue[Frame | None] = asyncio.Queue()
             # Requests stay open: when they close, the program knows that the studio has gone.
-            self._child = child = Child(module, on_this_loop(frames.put_nowait))
+            self._child = child = Child(module, on_this_loop(frames.put_nowait), AnyEvent)
             if self.state == "cancelling":
                 child.end()
             child.send({**request, "root": str(self.root)})
             while frame := await frames.get():
                 event = frame[0]
-                if event["event"] == "failed":
-                    failed = Problem.from_record(event["problem"])
+                if isinstance(event, Failed):
+                    failed = event.problem
                 elif self.state == "running":
                     self._take(event)
             status = await asyncio.to_thread(child.process.wait)
@@ -99,30 +104,32 @@ class Job:
             self.state = "cancelled"
         else:
             self.state, self.problem = "failed" if failed else "done", failed
-        if self.stages:
-            self.stages[-1]["seconds"] = round(time.monotonic() - self._stage_started, 2)
+        self._end_stage(time.monotonic())
         self.changed(self)
 
-    def _take(self, event: dict[str, Any]) -> None:
-        kind = event.get("event")
-        if kind == "progress":
-            self._advance(event)
-        elif kind == "answer":
-            self.answer = event["kind"]
-            self.told(event)
-        elif kind == "done":
-            self.result = event["result"]
-            self.told(event)
+    def _take(self, event: Advanced | Guessed | Done) -> None:
+        match event:
+            case Advanced():
+                self._advance(event)
+            case Guessed():
+                self.answer = event.kind
+                self.guessed(event)
+            case Done():
+                self.result = event.result
         self.changed(self)
 
-    def _advance(self, event: dict[str, Any]) -> None:
+    def _advance(self, event: Advanced) -> None:
         now = time.monotonic()
-        if not self.stages or self.stages[-1]["name"] != event["stage"]:
-            if self.stages:
-                self.stages[-1]["seconds"] = round(now - self._stage_started, 2)
-            self.stages.append({"name": event["stage"]})
+        if not self.stages or self.stages[-1].name != event.stage:
+            self._end_stage(now)
+            self.stages.append(JobStage(name=event.stage, done=0, total=0, remark="", seconds=0.0))
             self._stage_started = now
-        known = {name: event[name] for name in ("done", "total", "remark")}
-        self.stages[-1] |= known | {"seconds": round(now - self._stage_started, 2)}
-        if event.get("losses"):
-            self.curve.append(event["losses"])
+        stage = self.stages[-1]
+        stage.done, stage.total, stage.remark = event.done, event.total, event.remark
+        stage.seconds = round(now - self._stage_started, 2)
+        if event.losses:
+            self.curve.append(event.losses)
+
+    def _end_stage(self, now: float) -> None:
+        if self.stages:
+            self.stages[-1].seconds = round(now - self._stage_started, 2)

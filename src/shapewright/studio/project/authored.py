@@ -2,25 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Literal
 
 from shapewright.studio.project.workspace import Project
-
-_NOTHING: Mapping[str, Any] = {"name": "", "parameters": [], "defaults": {}}
+from shapewright.studio.wire.board import Parameter, Procedure
+from shapewright.studio.wire.values import Values
 
 
 @dataclass(eq=False)
 class Authored:
-    """state: of the newest version. digest: of the text on disk. version: name, parameters and defaults of the newest
-    good one. load: number of the newest reading. saved: whether that followed a save. helper: whether the save was of
-    another file than the procedure's own."""
+    """The procedure, read again and again.
+
+    state: of the newest version.
+    digest: of the text on disk.
+    name: of the newest good version.
+    parameters: of the newest good version.
+    defaults: of the newest good version.
+    load: number of the newest reading.
+    saved: whether that followed a save.
+    helper: whether the save was of another file than the procedure's own.
+    """
 
     project: Project
     state: Literal["loading", "good", "broken"] = "loading"
     digest: str = ""
-    version: Mapping[str, Any] = field(default_factory=lambda: _NOTHING)
+    name: str = ""
+    parameters: list[Parameter] = field(default_factory=list)
+    defaults: Values = field(default_factory=dict)
     load: int = 0
     saved: bool = False
     helper: bool = False
@@ -39,26 +48,26 @@ class Authored:
         _, self.digest = self.project.read_source()
         self.state, self.saved, self.helper = "loading", saved, saved and self.digest == before
 
-    def accept(self, version: Mapping[str, Any]) -> None:
-        self.state, self.version = "good", version
+    def accept(self, name: str, parameters: list[Parameter], defaults: Values) -> None:
+        self.state, self.name, self.parameters, self.defaults = "good", name, parameters, defaults
 
     def reject(self) -> None:
         self.state, self.saved = "broken", False
 
-    def values(self, *layers: Mapping[str, Any] | None) -> dict[str, Any]:
+    def values(self, *layers: Values | None) -> Values:
         """The defaults, with later layers over earlier ones."""
-        values = dict(self.version["defaults"])
+        values = dict(self.defaults)
         for layer in layers:
             values |= layer or {}
         return values
 
-    def record(self, stale: bool, fitted: str | None) -> dict[str, Any]:
-        """The page's ``Procedure``."""
-        return {
-            "state": self.state,
-            "stale": stale,
-            "name": self.version["name"],
-            "digest": self.digest,
-            "fitted": fitted,
-            "parameters": self.version["parameters"],
-        }
+    def procedure(self, stale: bool, fitted: str | None) -> Procedure:
+        """As the page gets it."""
+        return Procedure(
+            state=self.state,
+            stale=stale,
+            name=self.name,
+            digest=self.digest,
+            fitted=fitted,
+            parameters=self.parameters,
+        )

@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from shapewright.references.readers.formats import MESHES
 from shapewright.references.sources import Source, find
@@ -37,7 +38,7 @@ class Listing:
     skipped: Mapping[Path, str]
 
     @property
-    def dimension(self) -> int:
+    def dimension(self) -> Literal[2, 3]:
         """2 where all are drawings, else 3."""
         kinds = {source.path.suffix.lower() for source in self.sources.values()}
         return 2 if kinds and not kinds & set(MESHES) else 3

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from shapewright.fields import Field, fields_of, meant
 from shapewright.settings import Preset, Settings, described, groups
+from shapewright.studio.wire.changes import ChosenSettings
 
 SHAPE_SECONDS = 5.0
 """Seconds that one shape may take in the studio: half of what a fit on the command line gives it, because one waits."""
@@ -18,7 +19,7 @@ _KEPT = (*groups()["building"], *groups()["judging"], "seed", "workers")
 
 @dataclass(frozen=True)
 class Preferences:
-    """What the author chose. Each field but ``settings`` is one of the page's ``Settings``, and so is each of _FIT."""
+    """What the author chose. Each field but ``settings`` is one of ``ChosenSettings``, and so is each of _FIT."""
 
     auto_fit: Annotated[bool, "A fit follows every save."] = True
     fresh: Annotated[bool, "A fit learns anew, and does not resume the run before."] = False
@@ -31,9 +32,10 @@ class Preferences:
         own = {name: field for name, field in fields_of(Preferences).items() if name != "settings"}
         return own | {name: described()[name] for name in _FIT}
 
-    def record(self) -> dict[str, Any]:
-        """The page's ``Settings``."""
-        return {name: getattr(self.settings if name in _FIT else self, name) for name in self.described()}
+    def message(self) -> ChosenSettings:
+        """As the page gets them."""
+        values = {name: getattr(self.settings if name in _FIT else self, name) for name in self.described()}
+        return ChosenSettings(**values)
 
     def changed(self, given: Mapping[str, Any]) -> Preferences:
         """With some entries of ``record`` replaced. Raises ValueError, which names an entry that cannot be."""

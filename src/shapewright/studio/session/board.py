@@ -1,11 +1,13 @@
-"""What the page shows of the collection: a tile for every reference, and groups of the misfits."""
+"""The collection as it is shown: the state of every reference, and groups of the misfits."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
+
+from msgspec import structs
 
 from shapewright.building.outcomes import Failure
 from shapewright.judging.paper import Metric, light_field_metric
@@ -14,20 +16,27 @@ from shapewright.report.page import colour
 from shapewright.settings import Settings
 from shapewright.studio.project.listing import Listing
 from shapewright.studio.project.picture_store import Pictures
+from shapewright.studio.wire.board import Collection, Group, Skipped, Stage, Tile
 from shapewright.studio.wire.problems import Problem, together
+from shapewright.studio.wire.values import Address, Slug
 
-Stage = Literal["none", "carried", "early", "predicted", "trained"]
 Record = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
-class Tile:
-    """One reference and what was found for it; see PROTOCOL.md. parameters, active: of the replica shown."""
+class ReferenceState:
+    """One reference, and what is known of it; see ``wire.board.Tile`` for what is not told here.
 
-    slug: str
+    iou: of the silhouettes.
+    chamfer: distance of the surfaces.
+    parameters: of the replica that is shown.
+    active: names of those that matter.
+    """
+
+    slug: Slug
     name: str
-    reference: str | None = None
-    replica: str | None = None
+    reference: Address | None = None
+    replica: Address | None = None
     distance: float | None = None
     iou: float | None = None
     chamfer: float | None = None
@@ -41,75 +50,80 @@ class Tile:
     at_limit: tuple[str, ...] = ()
     problem: Problem | None = None
 
-    def record(self, metric: Metric) -> dict[str, Any]:
+    def tile(self, metric: Metric) -> Tile:
         """As the page gets it."""
-        shown = (
-            "slug",
-            "name",
-            "reference",
-            "replica",
-            "distance",
-            "compatible",
-            "group",
-            "stage",
-            "stale",
-            "previous",
+        return Tile(
+            slug=self.slug,
+            name=self.name,
+            reference=self.reference,
+            replica=self.replica,
+            distance=self.distance,
+            colour=tint(self.distance, metric),
+            compatible=self.compatible,
+            group=self.group,
+            stage=self.stage,
+            stale=self.stale,
+            previous=self.previous,
+            at_limit=list(self.at_limit),
+            problem=self.problem,
         )
-        return {
-            **{name: getattr(self, name) for name in shown},
-            "colour": tint(self.distance, metric),
-            "at_limit": list(self.at_limit),
-            "problem": self.problem.record() if self.problem else None,
-        }
 
 
 @dataclass(frozen=True)
 class Board:
-    """All tiles by slug, in the order of the listing. run: name of the run they are from. skipped: path to reason."""
+    """The collection as it is shown; a change makes another board.
 
-    tiles: dict[str, Tile] = field(default_factory=dict)
-    groups: tuple[Record, ...] = ()
+    references: by slug, in the order of the listing.
+    groups: of the misfits.
+    run: name of the run that is shown.
+    skipped: files that cannot be read, and why.
+    """
+
+    references: Mapping[Slug, ReferenceState] = field(default_factory=dict)
+    groups: tuple[Group, ...] = ()
     run: str | None = None
     metric: Metric = field(default_factory=lambda: light_field_metric(Settings.threshold))
     skipped: Mapping[str, str] = field(default_factory=dict)
 
-    def record(self) -> dict[str, Any]:
-        """The page's ``Collection``."""
-        return {
-            "run": self.run,
-            "threshold": self.metric.threshold,
-            "measure": self.metric.name,
-            "criterion": self.metric.criterion,
-            "count": len(self.tiles),
-            "compatible": sum(tile.compatible for tile in self.tiles.values()),
-            "tiles": [tile.record(self.metric) for tile in self.tiles.values()],
-            "groups": list(self.groups),
-            "skipped": [{"path": path, "reason": reason} for path, reason in self.skipped.items()],
-        }
+    def collection(self) -> Collection:
+        """As the page gets it."""
+        tiles = [state.tile(self.metric) for state in self.references.values()]
+        return Collection(
+            run=self.run,
+            threshold=self.metric.threshold,
+            measure=self.metric.name,
+            criterion=self.metric.criterion,
+            count=len(tiles),
+            compatible=sum(tile.compatible for tile in tiles),
+            tiles=tiles,
+            groups=list(self.groups),
+            skipped=[Skipped(path=path, reason=reason) for path, reason in self.skipped.items()],
+        )
 
-    def with_tile(self, slug: str, **changes: Any) -> Board:
-        """A tile changed; compatible follows the distance."""
+    def with_reference(self, slug: Slug, **changes: Any) -> Board:
+        """With a reference changed; compatible follows the distance."""
         if "distance" in changes:
             distance = changes["distance"]
             changes["compatible"] = distance is not None and distance <= self.metric.threshold
-        self.tiles[slug] = replace(self.tiles[slug], **changes)
-        return self
+        changed = replace(self.references[slug], **changes)
+        return replace(self, references={**self.references, slug: changed})
 
     def with_all(self, **changes: Any) -> Board:
-        """Every tile changed."""
-        return replace(self, tiles={slug: replace(tile, **changes) for slug, tile in self.tiles.items()})
+        """With every reference changed."""
+        changed = {slug: replace(state, **changes) for slug, state in self.references.items()}
+        return replace(self, references=changed)
 
-    def without(self, slug: str, path: str, reason: str) -> Board:
+    def without(self, slug: Slug, path: str, reason: str) -> Board:
         """Without a reference that cannot be read."""
-        tiles = {each: tile for each, tile in self.tiles.items() if each != slug}
-        return replace(self, tiles=tiles, skipped={**self.skipped, path: reason})
+        others = {other: state for other, state in self.references.items() if other != slug}
+        return replace(self, references=others, skipped={**self.skipped, path: reason})
 
     def problems(self) -> list[Problem]:
         """Of shapes that could not be built, alike ones together."""
         return together(
-            replace(tile.problem, slugs=(tile.slug,), parameters=tile.problem.parameters or tile.parameters)
-            for tile in self.tiles.values()
-            if tile.problem
+            structs.replace(state.problem.of(slug), parameters=state.problem.parameters or state.parameters)
+            for slug, state in self.references.items()
+            if state.problem
         )
 
 
@@ -124,21 +138,24 @@ def lay_out(
 ) -> Board:
     """The board of a listing, as far as a run knows its references.
 
-    kept: addresses of the references' pictures, None where there is none yet. record, folder: of the run. previous:
-    record of the run before. metric: of a board without a run.
+    kept: addresses of the references' pictures, None where there is none yet.
+    record: of the run.
+    folder: of the run.
+    previous: record of the run before.
+    metric: of a board without a run.
     """
     known = {entry["name"]: entry for entry in record["references"]} if record else {}
     before = {entry["name"]: entry["distance"] for entry in previous["references"]} if previous else {}
-    tiles = {}
+    references = {}
     for slug, source in listed.sources.items():
-        tile = Tile(slug, source.name, reference=kept.get(slug), previous=before.get(source.name))
+        state = ReferenceState(slug, source.name, reference=kept.get(slug), previous=before.get(source.name))
         entry = known.get(source.name)
-        tiles[slug] = _filled(tile, entry, pictures, folder) if entry and folder else tile
-    slugs = {tile.name: slug for slug, tile in tiles.items()}
-    skipped = {_shown(path): reason for path, reason in listed.skipped.items()}
+        references[slug] = _filled(state, entry, pictures, folder) if entry and folder else state
+    slugs = {state.name: slug for slug, state in references.items()}
+    skipped = {str(path): reason for path, reason in listed.skipped.items()}
     skipped |= record["collection"]["skipped"] if record else {}
     return Board(
-        tiles,
+        references,
         tuple(_groups(record["groups"], slugs)) if record else (),
         folder.name if folder else None,
         Metric.of_record(record) if record else metric or light_field_metric(Settings.threshold),
@@ -151,11 +168,11 @@ def tint(distance: float | None, metric: Metric) -> str | None:
     return None if distance is None else colour(distance, metric.threshold, metric.far / metric.threshold)
 
 
-def _filled(tile: Tile, entry: Record, pictures: Pictures, folder: Path) -> Tile:
+def _filled(state: ReferenceState, entry: Record, pictures: Pictures, folder: Path) -> ReferenceState:
     address = {side: folder / "thumbnails" / f"{entry['slug']}.{side}.png" for side in ("reference", "replica")}
     return replace(
-        tile,
-        reference=tile.reference or pictures.add_file(address["reference"]),
+        state,
+        reference=state.reference or pictures.add_file(address["reference"]),
         replica=pictures.add_file(address["replica"]),
         distance=entry["distance"],
         iou=entry["iou"],
@@ -166,24 +183,18 @@ def _filled(tile: Tile, entry: Record, pictures: Pictures, folder: Path) -> Tile
         parameters=entry["parameters"],
         active=tuple(entry["active"]),
         at_limit=tuple(entry["at_limit"]),
-        problem=_problem(entry["error"], tile.slug) if entry["error"] else None,
+        problem=_problem(entry["error"], state.slug) if entry["error"] else None,
     )
 
 
-def _problem(error: str, slug: str) -> Problem:
+def _problem(error: str, slug: Slug) -> Problem:
     failure = Failure.parse(error)
-    return Problem(failure.kind, failure.message, slugs=(slug,))
+    return Problem(failure.kind, failure.message).of(slug)
 
 
-def _groups(groups: Sequence[Record], slugs: Mapping[str, str]) -> Iterable[Record]:
+def _groups(groups: Sequence[Record], slugs: Mapping[str, Slug]) -> Iterable[Group]:
     """Groups by slug; an index into them stays what it was, so a group that lost all its members stays too."""
     for group in groups:
         members = [slugs[name] for name in group["members"] if name in slugs]
-        yield {
-            "representative": slugs.get(group["representative"], members[0] if members else None),
-            "members": members,
-        }
-
-
-def _shown(path: Path) -> str:
-    return str(path)
+        chosen = slugs.get(group["representative"], members[0] if members else None)
+        yield Group(representative=chosen, members=members)

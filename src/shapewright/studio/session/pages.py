@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import itertools
-import json
-from collections.abc import Mapping
-from typing import Any
+
+from shapewright.studio.wire.values import Message, encode
 
 MOST_WAITING = 2000
-Message = Mapping[str, Any]
 
 
 class Page:
@@ -20,14 +18,15 @@ class Page:
         self.queue: asyncio.Queue[str | bytes | None] = asyncio.Queue()
         self.lost = False
 
-    def send(self, message: Message | bytes) -> None:
+    def send(self, message: str | bytes) -> None:
+        """Text, or a binary message."""
         if self.lost:
             return
         if self.queue.qsize() >= MOST_WAITING:
             self.lost = True
             self.queue.put_nowait(None)
             return
-        self.queue.put_nowait(message if isinstance(message, bytes) else encode(message))
+        self.queue.put_nowait(message)
 
 
 class Pages:
@@ -48,16 +47,11 @@ class Pages:
     def send(self, number: int, message: Message | bytes) -> None:
         """To one page; to nobody when it has gone."""
         if number in self._pages:
-            self._pages[number].send(message)
+            self._pages[number].send(message if isinstance(message, bytes) else encode(message).decode())
 
-    def publish(self, kind: str, **content: Any) -> None:
-        """A message of this type to all."""
+    def publish(self, message: Message) -> None:
+        """To all."""
         if self._pages:
-            text = {"type": kind, **content}
+            text = encode(message).decode()
             for page in self._pages.values():
                 page.send(text)
-
-
-def encode(message: Message) -> str:
-    """As JSON text. Raises ValueError for a number that is not finite."""
-    return json.dumps(message, allow_nan=False, separators=(",", ":"))

@@ -2,77 +2,87 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 from urllib.parse import quote
+
+import msgspec
 
 from shapewright.runs.folder import EXPLANATION, read_json, read_record
 from shapewright.studio.jobs.fit_job import PREDICTIONS
 from shapewright.studio.project.workspace import Missing
-from shapewright.studio.session.board import Tile, tint
+from shapewright.studio.session.board import tint
 from shapewright.studio.session.history import source_of
 from shapewright.studio.session.session import Session
+from shapewright.studio.wire.board import Parameter
+from shapewright.studio.wire.jobs import Epoch
+from shapewright.studio.wire.references import About, Explanation, Reference
+from shapewright.studio.wire.runs import RunDetail
+from shapewright.studio.wire.values import Slug
 
 _OF_SUGGESTIONS = {"title": "", "text": "", "snippet": None, "source": None, "gain": None, "tried": None}
 
 
-def reference(session: Session, slug: str, about: Mapping[str, Any]) -> dict[str, Any]:
-    """The page's ``Reference``. about: what the bench knows of it. Raises Missing for a slug that is not there."""
-    board = session.showing.board
-    tile: Tile = board.tiles[slug]
-    shown = ("slug", "name", "parameters", "distance", "iou", "chamfer", "compatible", "group", "stage")
-    predicted = _read(session.showing.run, PREDICTIONS).get(tile.name, {})
-    names = {parameter["name"] for parameter in session.authored.version["parameters"]}
-    path = session.showing.listed.sources[slug].path
+def reference(session: Session, slug: Slug, about: About | None) -> Reference:
+    """One reference in full. about: what the bench knows of it, if it answers."""
+    state = session.display.board.references[slug]
+    predicted = _read(session.display.run, PREDICTIONS).get(state.name, {})
+    names = {parameter.name for parameter in session.authored.parameters}
+    path = session.display.listed.sources[slug].path
     inside = path.is_relative_to(session.project.folder)
-    return {
-        **{name: getattr(tile, name) for name in shown},
-        "path": str(path.relative_to(session.project.folder) if inside else path),
-        "triangles": None,
-        "notes": [],
-        "units": None,
-        **about,
-        "active": list(tile.active),
-        "at_limit": list(tile.at_limit),
-        "colour": tint(tile.distance, board.metric),
-        "problem": tile.problem.record() if tile.problem else None,
-        **{key: _known(predicted.get(key), names) for key in ("predicted", "spread", "likelihood")},
-        "explanation": explanation(session)["references"].get(slug) if session.explained else None,
-    }
+    return Reference(
+        slug=slug,
+        name=state.name,
+        path=str(path.relative_to(session.project.folder) if inside else path),
+        triangles=about.triangles if about else None,
+        notes=about.notes if about else [],
+        units=about.units if about else None,
+        parameters=state.parameters,
+        active=list(state.active),
+        at_limit=list(state.at_limit),
+        distance=state.distance,
+        iou=state.iou,
+        chamfer=state.chamfer,
+        colour=tint(state.distance, session.display.board.metric),
+        compatible=state.compatible,
+        group=state.group,
+        stage=state.stage,
+        problem=state.problem,
+        predicted=_known(predicted.get("predicted"), names),
+        spread=_known(predicted.get("spread"), names),
+        likelihood=_known(predicted.get("likelihood"), names),
+        explanation=explanation(session)["references"].get(slug) if session.explained else None,
+    )
 
 
-def run_detail(session: Session, name: str) -> dict[str, Any]:
-    """The page's ``RunDetail``. Raises Missing for a run that is not there."""
-    showing = session.showing
+def run_detail(session: Session, name: str) -> RunDetail:
+    """A whole run. Raises Missing for a run that is not there."""
     folder = session.project.run(name)
     record = read_record(folder)
-    return {
-        "run": next(run for run in session.runs() if run["run"] == name),
-        "collection": showing.laid_out(folder, session.metric).record(),
-        "source": source_of(folder),
-        "parameters": record["procedure"]["parameters"],
-        "settings": record["settings"],
-        "seconds": record["seconds"],
-        "curve": record["metrics"]["curve"],
-        "validation": record["metrics"]["validation"],
-    }
+    return RunDetail(
+        run=next(run for run in session.runs() if run.run == name),
+        collection=session.display.laid_out(folder, session.metric).collection(),
+        source=source_of(folder),
+        parameters=msgspec.convert(record["procedure"]["parameters"], list[Parameter]),
+        settings=record["settings"],
+        seconds=record["seconds"],
+        curve=msgspec.convert(record["metrics"]["curve"], list[Epoch]),
+        validation=record["metrics"]["validation"],
+    )
 
 
-def explanation(session: Session) -> dict[str, Any]:
-    """The page's ``Explanation`` of the run shown: what the run's file says, by slug, with addresses of pictures.
-
-    Raises Missing when there is none.
-    """
-    run, slugs = session.showing.run, session.showing.slugs()
+def explanation(session: Session) -> Explanation:
+    """Of the run that is shown: what the run's file says, by slug, with addresses of pictures. Raises Missing."""
+    run, slugs = session.display.run, session.display.slugs()
     if run is None or not session.explained:
         raise Missing("there is no explanation of this run yet")
-    found = _read(run, EXPLANATION)
-    references = found.get("references", {})
-    suggestions = [_suggestion(each, run, slugs) for each in found.get("suggestions", [])]
-    named = {slugs[name]: told for name, told in references.items() if name in slugs}
-    summary = [{**each, **_by_slug(each, slugs)} for each in found.get("summary", [])]
-    return {**found, "references": named, "suggestions": suggestions, "summary": summary}
+    record = _read(run, EXPLANATION)
+    named = {slugs[name]: of_one for name, of_one in record.get("references", {}).items() if name in slugs}
+    suggestions = [_suggestion(given, run, slugs) for given in record.get("suggestions", [])]
+    summary = [{**cause, **_by_slug(cause, slugs)} for cause in record.get("summary", [])]
+    passed_on: Any = {**record, "references": named, "suggestions": suggestions, "summary": summary}
+    return cast(Explanation, passed_on)
 
 
 def _suggestion(given: Mapping[str, Any], run: Path, slugs: Mapping[str, str]) -> dict[str, Any]:
@@ -88,7 +98,7 @@ def _by_slug(given: Mapping[str, Any], slugs: Mapping[str, str]) -> dict[str, An
     return {"references": named} | ({"representative": slugs.get(chosen)} if chosen is not None else {})
 
 
-def _known(values: Mapping[str, Any] | None, names: set[str]) -> dict[str, Any] | None:
+def _known(values: Mapping[str, Any] | None, names: Collection[str]) -> dict[str, Any] | None:
     """The entries of parameters that still exist."""
     return {name: value for name, value in values.items() if name in names} if values else None
 

@@ -18,10 +18,11 @@ from collections.abc import Callable, Mapping
 from typing import IO, Any, BinaryIO
 
 import msgspec
-import numpy as np
+
+from shapewright.studio.wire.values import encode
 
 Frame = tuple[Any, bytes]
-"""A message of plain values, and its payload."""
+"""A message and its payload."""
 _LENGTHS = struct.Struct("<II")
 
 
@@ -30,6 +31,7 @@ class Child:
 
     module: the module that it runs.
     heard: called in another thread with every frame that it sends, and with None when it has ended.
+    messages: the type of the messages that it sends.
     own_group: whether it leads a process group, with which it is ended.
     environment: variables that it gets besides those of this process.
     """
@@ -38,6 +40,7 @@ class Child:
         self,
         module: str,
         heard: Callable[[Frame | None], object],
+        messages: Any = Any,
         own_group: bool = True,
         environment: Mapping[str, str] | None = None,
     ) -> None:
@@ -50,7 +53,7 @@ class Child:
             start_new_session=self._leads,
         )
         self._outgoing: queue.SimpleQueue[Frame | None] = queue.SimpleQueue()
-        for work in (lambda: self._listen(heard), self._speak):
+        for work in (lambda: self._listen(heard, messages), self._speak):
             threading.Thread(target=work, daemon=True).start()
 
     def send(self, message: Any, payload: bytes = b"") -> None:
@@ -67,10 +70,10 @@ class Child:
         self._outgoing.put(None)
         return self.process.wait()
 
-    def _listen(self, heard: Callable[[Frame | None], object]) -> None:
+    def _listen(self, heard: Callable[[Frame | None], object], messages: Any) -> None:
         assert self.process.stdout is not None
         with self.process.stdout as stream:
-            while frame := read_frame(stream):
+            while frame := read_frame(stream, messages):
                 heard(frame)
         heard(None)
 
@@ -105,18 +108,6 @@ def own_streams() -> tuple[BinaryIO, BinaryIO]:
     return requests, answers
 
 
-def encode(message: Any) -> bytes:
-    """A message as JSON; numbers that are not finite become null."""
-    return msgspec.json.encode(message, enc_hook=_plain)
-
-
-def _plain(value: Any) -> Any:
-    """The Python number of one of numpy's."""
-    if isinstance(value, np.generic):
-        return value.item()
-    raise TypeError(f"{type(value).__name__} has no form in JSON")
-
-
 def write_frame(stream: IO[bytes], message: Any, payload: bytes = b"") -> None:
     """Write one frame."""
     text = encode(message)
@@ -124,13 +115,18 @@ def write_frame(stream: IO[bytes], message: Any, payload: bytes = b"") -> None:
     stream.flush()
 
 
-def read_frame(stream: IO[bytes]) -> Frame | None:
-    """The next frame; None at the end of the stream, also where that breaks a frame off."""
+def read_frame(stream: IO[bytes], messages: Any = Any) -> Frame | None:
+    """The next frame; None at the end of the stream, also where that breaks a frame off.
+
+    messages: the type of its message. Raises msgspec.ValidationError for another.
+    """
     start = stream.read(_LENGTHS.size)
     if len(start) < _LENGTHS.size:
         return None
     text, payload = (stream.read(length) for length in _LENGTHS.unpack(start))
     try:
-        return msgspec.json.decode(text), payload
+        return msgspec.json.decode(text, type=messages), payload
+    except msgspec.ValidationError:
+        raise
     except msgspec.DecodeError:
         return None

@@ -8,19 +8,23 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
-_KINDS = {"f4": "f32", "u4": "u32", "i4": "i32"}
+from shapewright.studio.wire.shapes import BufferKind, MeshHead, ResidualsHead
+from shapewright.studio.wire.values import encode
+
+_KINDS: Mapping[str, BufferKind] = {"f4": "f32", "u4": "u32", "i4": "i32"}
 Buffers = Mapping[str, NDArray[Any]]
 
 
-def binary(header: Mapping[str, Any], buffers: Buffers) -> bytes:
+def binary(head: MeshHead | ResidualsHead, buffers: Buffers) -> bytes:
     """A binary message: u32 length of the header, the header as JSON, the buffers; all little-endian, 4-byte aligned.
 
-    The header's entry ``buffers`` says name, kind and number of values of each. buffers: float32, uint32 or int32.
+    buffers: float32, uint32 or int32; the head's field ``buffers`` comes to describe them.
     """
-    described = [[name, _KINDS[array.dtype.str[1:]], array.size] for name, array in buffers.items()]
-    text = json.dumps({**header, "buffers": described}, allow_nan=False, separators=(",", ":")).encode()
+    described = [(name, _KINDS[array.dtype.str[1:]], array.size) for name, array in buffers.items()]
+    text = encode(replace(head, buffers=described))
     text += b" " * (-len(text) % 4)
     arrays = (np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<")) for array in buffers.values())
     return b"".join([struct.pack("<I", len(text)), text, *(array.tobytes() for array in arrays)])

@@ -3,39 +3,49 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Literal, TypeAlias
 
-from shapewright.building.outcomes import Failure
+from msgspec import Meta, Struct
+from msgspec.structs import replace
+
+from shapewright.building.outcomes import Failure, FailureKind
 from shapewright.parameters import Parameters
 from shapewright.procedures import Place, ProcedureError
+from shapewright.studio.wire.values import Slug, Values
+
+ProblemKind: TypeAlias = Annotated[
+    Literal[FailureKind, "syntax", "load", "references", "fit", "explain", "export", "project"],
+    Meta(title="ProblemKind"),
+]
 
 
-@dataclass(frozen=True)
-class Problem:
-    """What went wrong. kind: see PROTOCOL.md. file, line, text: the author's. slugs: the shapes that it befell."""
+class Problem(Struct, frozen=True):
+    """An error that the author can mend.
 
-    kind: str
+    file: the author's, relative to the project.
+    line: in this file, from 1.
+    text: that line.
+    slugs: the shapes that it befell.
+    parameters: of one of these shapes.
+    count: how many shapes it befell.
+    """
+
+    kind: ProblemKind
     message: str
     file: str | None = None
     line: int | None = None
     text: str | None = None
-    slugs: tuple[str, ...] = ()
-    parameters: Parameters | None = None
+    slugs: tuple[Slug, ...] = ()
+    parameters: Values | None = None
+    count: int | None = None
 
-    def record(self) -> dict[str, Any]:
-        """As the page gets it."""
-        return {**asdict(self), "slugs": list(self.slugs), "count": len(self.slugs) or None}
-
-    @classmethod
-    def from_record(cls, record: dict[str, Any]) -> Problem:
-        """The inverse of ``record``."""
-        known = {name: record[name] for name in cls.__dataclass_fields__ if name in record}
-        return cls(**{**known, "slugs": tuple(record.get("slugs", ()))})
+    def of(self, *slugs: Slug) -> Problem:
+        """The same, of these shapes."""
+        return replace(self, slugs=slugs, count=len(slugs) or None)
 
 
-def of_error(error: Exception, kind: str, root: Path) -> Problem:
+def of_error(error: Exception, kind: ProblemKind, root: Path) -> Problem:
     """Of an error that was raised; the author's file is named relative to ``root``."""
     if not isinstance(error, ProcedureError):
         return Problem(kind, str(error))
@@ -48,7 +58,7 @@ def of_failure(failure: Failure, root: Path, parameters: Parameters | None = Non
     return replace(_placed(failure.kind, failure.message, failure.place, root), parameters=parameters)
 
 
-def _placed(kind: str, message: str, place: Place | None, root: Path) -> Problem:
+def _placed(kind: ProblemKind, message: str, place: Place | None, root: Path) -> Problem:
     if place is None:
         return Problem(kind, message)
     file = Path(place.file)
@@ -71,8 +81,8 @@ def syntax_problem(path: Path, root: Path) -> Problem | None:
 def together(problems: Iterable[Problem]) -> list[Problem]:
     """One problem for all shapes that failed alike, the commonest first; infeasible ones come last."""
     alike: dict[tuple[str, str, int | None], Problem] = {}
-    for each in problems:
-        key = (each.kind, each.message, each.line)
-        known = alike.get(key)
-        alike[key] = replace(known, slugs=known.slugs + each.slugs) if known else each
-    return sorted(alike.values(), key=lambda each: (each.kind == "infeasible", -len(each.slugs)))
+    for problem in problems:
+        key = (problem.kind, problem.message, problem.line)
+        first = alike.get(key, problem)
+        alike[key] = first.of(*(() if first is problem else first.slugs), *problem.slugs)
+    return sorted(alike.values(), key=lambda problem: (problem.kind == "infeasible", -len(problem.slugs)))

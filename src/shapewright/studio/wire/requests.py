@@ -1,104 +1,183 @@
-"""What pages ask for in JSON, checked before anything is done with it."""
+"""What pages ask for, checked before anything is done with it; and short answers."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Collection, Mapping
+from typing import Annotated, Any, Literal, TypeAlias, TypeVar, get_args
 
-from shapewright.shapes.files import FORMATS
+import msgspec
+from msgspec import Meta, Struct
 
-PARTS = ("replicas", "samples", "report", "parameters")
+from shapewright.shapes.files import Format
+from shapewright.studio.wire.board import Mark
+from shapewright.studio.wire.jobs import JobKind
+from shapewright.studio.wire.values import Slug, Values
+
 MOST_SAMPLES = 10_000
+"""More would fill a disk without anybody looking at them."""
+Part: TypeAlias = Annotated[Literal["replicas", "samples", "report", "parameters"], Meta(title="Part")]
+ExportFormat: TypeAlias = Annotated[Format, Meta(title="ExportFormat")]
+Request = TypeVar("Request")
 
 
 class Wrong(ValueError):
     """A request makes no sense; the message says what it should be."""
 
 
-def evaluation(given: Mapping[str, Any], slugs: Mapping[str, Any]) -> dict[str, Any]:
-    """A request for live evaluation. slugs: those that there are."""
-    number, slug = given.get("id"), given.get("slug")
-    if not isinstance(number, int) or isinstance(number, bool):
-        raise Wrong("id is a whole number")
-    if slug is not None and slug not in slugs:
-        raise Wrong(f"there is no reference {slug!r}")
-    values = given.get("parameters")
-    if values is not None and not (
-        isinstance(values, dict) and all(isinstance(value, str | int | float | bool) for value in values.values())
-    ):
-        raise Wrong("parameters are a mapping of names to values, or null")
-    return {"id": number, "slug": slug, "parameters": values, "residuals": given.get("residuals") is True}
+class Order(Struct, frozen=True, kw_only=True):
+    """A request of the page; it may leave out what has a default."""
 
 
-def slugs(given: Mapping[str, Any]) -> list[str]:
-    """Slugs that are visible."""
-    found = given.get("slugs")
-    if not isinstance(found, list) or not all(isinstance(slug, str) for slug in found):
-        raise Wrong("slugs is a list of strings")
-    return found
+class Evaluate(Struct, frozen=True, kw_only=True, tag_field="type", tag="evaluate"):
+    """Build a replica and measure it.
+
+    id: rises from one to the next; the answers carry it.
+    slug: null for a shape alone, measured against nothing.
+    parameters: those left out are as found, or without a slug at their defaults.
+    residuals: whether to send the two surfaces with their distances.
+    """
+
+    id: int
+    slug: Slug | None = None
+    parameters: Values | None = None
+    residuals: bool = False
 
 
-def source(given: Any) -> tuple[str, str | None]:
-    """Text and expected digest."""
-    wish = mapping(given)
-    text = wish.get("text")
-    if not isinstance(text, str):
-        raise Wrong("text is a string")
-    return text, digest(wish)
+class Visible(Struct, frozen=True, kw_only=True, tag_field="type", tag="visible"):
+    """Other tiles are on the screen; their pictures and measures are to come first."""
+
+    slugs: list[Slug]
 
 
-def digest(given: Mapping[str, Any]) -> str | None:
-    found = given.get("digest")
-    if found is not None and not isinstance(found, str):
-        raise Wrong("digest is a string or null")
-    return found
+PageMessage: TypeAlias = Annotated[Evaluate | Visible, Meta(title="PageMessage")]
+"""What the page sends over the WebSocket."""
 
 
-def marks(given: Any, known: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Pairs of slugs that there are."""
-    if not isinstance(given, list):
-        raise Wrong("marks are a list")
-    for mark in given:
-        pair = mapping(mark)
-        if pair.get("a") not in known or pair.get("b") not in known or not isinstance(pair.get("same"), bool):
-            raise Wrong("a mark has a, b (slugs of references) and same (true or false)")
-    return [{name: mark[name] for name in ("a", "b", "same")} for mark in given]
+class SourceEdit(Order, frozen=True):
+    """A new text of the procedure. digest: of the text that the edit began from; null to write over any."""
+
+    text: str
+    digest: str | None = None
 
 
-def export(given: Any) -> dict[str, Any]:
-    """What to pack."""
-    wish = mapping(given)
-    what, format = wish.get("what"), wish.get("format", "glb")
-    count, seed = wish.get("count", 50), wish.get("seed", 0)
-    if not isinstance(what, list) or not what or not set(what) <= set(PARTS):
-        raise Wrong(f"what is a list of {', '.join(PARTS)}")
-    if format not in FORMATS:
-        raise Wrong(f"format is one of {', '.join(FORMATS)}")
-    if type(count) is not int or not 1 <= count <= MOST_SAMPLES or type(seed) is not int or seed < 0:
-        raise Wrong(f"count lies between 1 and {MOST_SAMPLES}, seed is a whole number")
-    return {"what": what, "format": format, "count": count, "seed": seed}
+class FitOrder(Order, frozen=True):
+    """fresh: learn anew, and do not resume the run before."""
+
+    fresh: bool = False
 
 
-def one_of(given: Any, name: str, known: Sequence[str]) -> Any:
-    """The entry of this name, one of several words."""
-    found = mapping(given).get(name)
-    if found not in known:
-        raise Wrong(f"{name} is one of {', '.join(known)}")
-    return found
+class ExportOrder(Order, frozen=True):
+    """What to pack. count: of random samples. seed: of random samples."""
+
+    what: Annotated[list[Part], Meta(min_length=1)]
+    format: ExportFormat = "glb"
+    count: Annotated[int, Meta(ge=1, le=MOST_SAMPLES)] = 50
+    seed: Annotated[int, Meta(ge=0)] = 0
+
+
+class CancelOrder(Order, frozen=True):
+    """End a job."""
+
+    kind: JobKind
+
+
+class RestoreOrder(Order, frozen=True):
+    """Put a run's procedure back. digest: as in SourceEdit."""
+
+    digest: str | None = None
+
+
+class ApplyOrder(Order, frozen=True):
+    """Write a suggestion's procedure: beside the procedure, or in its place. digest: as in SourceEdit."""
+
+    to: Literal["copy", "procedure"]
+    digest: str | None = None
+
+
+class Source(Struct, frozen=True, kw_only=True):
+    """A text of the procedure. digest: of the text."""
+
+    path: str
+    text: str
+    digest: str
+
+
+class Written(Struct, frozen=True, kw_only=True):
+    """The procedure was written. digest: of the new text."""
+
+    digest: str
+
+
+class Replaced(Struct, frozen=True, kw_only=True):
+    """The procedure was written. digest: of the new text. undo: the text that was there."""
+
+    digest: str
+    undo: str
+
+
+class Copied(Struct, frozen=True, kw_only=True):
+    """A new file was written."""
+
+    path: str
+    text: str
+
+
+def _words(kind: Any) -> str:
+    return ", ".join(get_args(get_args(kind)[0]))
+
+
+_SHOULD: Mapping[Any, str] = {
+    Evaluate | Visible: "type is evaluate or visible; id is a whole number, slugs is a list of strings, "
+    "parameters are a mapping of names to values, or null",
+    SourceEdit: "text is a string, digest is a string or null",
+    FitOrder: "fresh is true or false",
+    ExportOrder: f"what is a list of {_words(Part)}; format is one of {_words(ExportFormat)}; "
+    f"count lies between 1 and {MOST_SAMPLES}; seed is a whole number",
+    CancelOrder: f"kind is one of {_words(JobKind)}",
+    RestoreOrder: "digest is a string or null",
+    ApplyOrder: "to is copy or procedure, digest is a string or null",
+    list[Mark]: "a mark has a, b (slugs of references) and same (true or false)",
+    dict[str, Any]: "send a JSON object",
+}
+
+
+def decode(body: bytes | str, kind: type[Request]) -> Request:
+    """A request of this kind. Raises Wrong."""
+    try:
+        return msgspec.json.decode(body or b"{}", type=kind)
+    except msgspec.ValidationError as error:
+        raise Wrong(f"{_SHOULD[kind]} ({error})") from error
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise Wrong(f"the body is no JSON: {error}") from error
+
+
+def decode_page_message(text: str) -> Evaluate | Visible:
+    """What a page sent over the WebSocket. Raises Wrong."""
+    kind: Any = Evaluate | Visible
+    message: Evaluate | Visible = decode(text, kind)
+    return message
+
+
+def check_known(slugs: Collection[Slug | None], references: Collection[Slug]) -> None:
+    """Check that references are there. Raises Wrong."""
+    for slug in slugs:
+        if slug is not None and slug not in references:
+            raise Wrong(f"there is no reference {slug!r}")
+
+
+def one_of(word: str, name: str, words: Collection[str]) -> str:
+    """An entry of a query string that is one of several words. Raises Wrong."""
+    if word not in words:
+        raise Wrong(f"{name} is one of {', '.join(words)}")
+    return word
 
 
 def number(text: str | None, default: float, low: float, high: float) -> float:
-    """A number of a query string, inside its limits."""
+    """A number of a query string, inside its limits. Raises Wrong."""
     try:
-        found = default if text is None else float(text)
+        value = default if text is None else float(text)
     except ValueError as error:
         raise Wrong(f"{text!r} is no number") from error
-    if not low <= found <= high:
-        raise Wrong(f"{found:g} does not lie between {low:g} and {high:g}")
-    return found
-
-
-def mapping(given: Any) -> dict[str, Any]:
-    if not isinstance(given, dict):
-        raise Wrong("send a JSON object")
-    return given
+    if not low <= value <= high:
+        raise Wrong(f"{value:g} does not lie between {low:g} and {high:g}")
+    return value

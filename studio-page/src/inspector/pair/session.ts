@@ -1,26 +1,17 @@
 /** The pair that is open: what was found for it, what the author has tried since, and what the server said of that. */
 
 import { computed, effect, signal, untracked } from "@preact/signals";
-import { complain } from "../state/notices";
-import { connected, dimension, procedure, tileOf } from "../state/studio";
-import { evaluate, onEvaluated } from "../wire/live";
-import type {
-  DistanceMessage,
-  DrawingMessage,
-  Evaluated,
-  MeshMessage,
-  Outcome,
-  Problem,
-  Reference,
-  ResidualsMessage,
-  Slug,
-  Value,
-  Values,
-} from "../wire/protocol";
-import { RequestError, requests } from "../wire/requests";
+import { complain } from "../../state/notices";
+import { connected, dimension, procedure, tileOf } from "../../state/studio";
+import { evaluate, onEvaluated } from "../../wire/live";
+import type { Evaluated, MeshMessage, ResidualsMessage } from "../../wire/binary";
+import type { DistanceMessage, DrawingMessage, Problem, Reference, Slug, Value, Values } from "../../wire/messages";
+import { RequestError, requests } from "../../wire/requests";
 
 export type Colouring = "plain" | "distance" | "parts";
 export type Shown = MeshMessage | DrawingMessage;
+/** What an evaluation says of the replica besides its geometry. */
+export type Outcome = Required<Pick<Shown, "parameters" | "active" | "at_limit" | "units" | "milliseconds">>;
 
 export const slug = signal<Slug | null>(null);
 export const reference = signal<Reference | null>(null);

@@ -1,12 +1,12 @@
 /** What was measured, in every unit; to copy, or to propose as a parameter's range. */
 
 import { useSignal } from "@preact/signals";
-import { copy } from "../state/actions";
-import { procedure } from "../state/studio";
-import { Button, Toggle } from "../ui/controls";
-import { significant } from "../ui/numbers";
+import { copy } from "../../state/actions";
+import { procedure } from "../../state/studio";
+import { Button, Toggle } from "../../ui/controls";
+import { significant } from "../../ui/numbers";
 import { Proposal } from "./proposal";
-import { complete, degrees, length, points, snapping, take, tool, units } from "./measuring";
+import { complete, degrees, length, points, snapping, take, tool, units } from "./points";
 
 const HINTS = {
   distance: ["Click the first point.", "Click the second point."],
@@ -40,7 +40,7 @@ export function MeasureCard() {
       {degrees.value !== null && <output class="angle">{degrees.value.toFixed(2)}°</output>}
       {complete.value && (
         <div class="row">
-          <Button icon="copy" onClick={() => void copy(told(), "the measure")}>
+          <Button icon="copy" onClick={() => void copy(measured(), "the measure")}>
             Copy
           </Button>
           {length.value && ranged && (
@@ -91,7 +91,7 @@ function Lengths() {
   );
 }
 
-function told(): string {
+function measured(): string {
   if (degrees.value !== null) return `${degrees.value.toFixed(2)}°`;
   const { total, along } = length.value!;
   return units.value

@@ -1,7 +1,7 @@
 /** How the open pair is laid out, and the stage that it stands on. */
 
 import { signal } from "@preact/signals";
-import type { Stage } from "../viewer/stage";
+import type { Stage } from "../../viewer/stage";
 
 /** Difference: of drawings only. */
 export type Layout = "beside" | "over" | "difference";

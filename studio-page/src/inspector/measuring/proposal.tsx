@@ -1,14 +1,14 @@
 /** A measured length as the end of a parameter's Range, as a line for the procedure. */
 
 import { useSignal } from "@preact/signals";
-import { proposeRange } from "../loop/editing";
-import { copy } from "../state/actions";
-import { procedure } from "../state/studio";
-import { Button, Select } from "../ui/controls";
-import { significant } from "../ui/numbers";
-import type { Parameter } from "../wire/protocol";
-import { units } from "./measuring";
-import type { Length } from "./measuring";
+import { proposeRange } from "../../loop/editing";
+import { copy } from "../../state/actions";
+import { procedure } from "../../state/studio";
+import { Button, Select } from "../../ui/controls";
+import { significant } from "../../ui/numbers";
+import type { Parameter } from "../../wire/messages";
+import { units } from "./points";
+import type { Length } from "./points";
 
 const PARTS = ["length", "dx", "dy", "dz"] as const;
 

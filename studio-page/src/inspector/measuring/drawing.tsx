@@ -1,11 +1,11 @@
 /** Points and lines of a measure, drawn over the stage in both of its halves. */
 
 import { Vector3 } from "three";
-import { bounds, boxEdges } from "../viewer/snapping";
-import type { Side, Stage } from "../viewer/stage";
-import { fixed } from "../ui/numbers";
-import { degrees, hover, length, points, snapping, tool } from "./measuring";
-import { drawn, stage } from "./showing";
+import { bounds, boxEdges } from "../../viewer/snapping";
+import type { Side, Stage } from "../../viewer/stage";
+import { fixed } from "../../ui/numbers";
+import { degrees, hover, length, points, snapping, tool } from "./points";
+import { drawn, stage } from "../pair/layout";
 
 export function MeasureDrawing() {
   void drawn.value;

@@ -2,8 +2,8 @@
 
 import { computed, signal } from "@preact/signals";
 import type { Vector3 } from "three";
-import type { Snap, Snapping } from "../viewer/snapping";
-import { outcome, reference } from "./session";
+import type { Snap, Snapping } from "../../viewer/snapping";
+import { outcome, reference } from "../pair/session";
 
 export type Tool = "off" | "distance" | "angle";
 
@@ -39,7 +39,7 @@ export interface Unit {
 
 /** Units that a length can be told in: the common one, the reference's file's, the procedure's. */
 export const units = computed((): Unit[] => {
-  const own = reference.value?.units.scale;
+  const own = reference.value?.units?.scale;
   const made = outcome.value?.units.size;
   return [
     { name: "normalised", title: "The largest extent is 1", size: 1 },

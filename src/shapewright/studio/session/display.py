@@ -1,37 +1,43 @@
-"""The board, kept up to date: references listed, runs opened, sweeps applied, pages told what changed."""
+"""What the pages see of the collection: references listed, runs opened, sweeps applied."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from shapewright.judging.paper import Metric
-from shapewright.parameters import Parameters
 from shapewright.runs.folder import RunError, read_record
+from shapewright.studio.bench.messages import Measured, SweepEnded, Swept
 from shapewright.studio.project.listing import Listing, kept_picture, listing
 from shapewright.studio.project.picture_store import Pictures
 from shapewright.studio.project.workspace import Project
-from shapewright.studio.session.board import Board, Stage, lay_out
+from shapewright.studio.session.board import Board, lay_out
 from shapewright.studio.session.pages import Pages
+from shapewright.studio.wire.board import Stage
+from shapewright.studio.wire.changes import CollectionChanged, TilesChanged
 from shapewright.studio.wire.problems import Problem
+from shapewright.studio.wire.values import Slug, Values
 
 _SETTLE = 0.04
 """Seconds for which changed tiles are gathered into one message."""
 
 
-class Showing:
-    """board: what the pages see. listed: the references there are. run: folder of the run shown, None before any.
+class Display:
+    """What the pages see of the collection, and where it comes from.
 
-    swept: set while no sweep is under way that has still to show a replica. on_problems: called with the problems of
-    all shapes whenever these change.
+    board: what they see; a change puts another in its place.
+    listed: the references that there are.
+    run: folder of the run that is shown; None before the first.
+    pictures: all that the board names.
+    swept: set while no sweep has still to show a replica.
     """
 
     def __init__(
         self, project: Project, pages: Pages, cache: Path | None, on_problems: Callable[[list[Problem]], object]
     ) -> None:
+        """on_problems: called with the problems of all shapes whenever these change."""
         self._on_problems = on_problems
         self.project, self.pages, self.cache = project, pages, cache
         self.pictures = Pictures(project.folder, *([cache] if cache else []))
@@ -41,9 +47,9 @@ class Showing:
         self.swept = asyncio.Event()
         self._sweep = 0
         self._stage: Stage = "carried"
-        self._left: set[str] = set()
-        self._dirty: set[str] = set()
-        self._told: list[Problem] = []
+        self._left: set[Slug] = set()
+        self._dirty: set[Slug] = set()
+        self._reported: list[Problem] = []
         self._unreadable: dict[str, tuple[str, str]] = {}
 
     def relist(self) -> None:
@@ -71,8 +77,8 @@ class Showing:
         self.run = run
         self.board = self.laid_out(run, metric)
         self._forget_pictures()
-        self.pages.publish("collection", collection=self.board.record())
-        self._tell_problems()
+        self.pages.publish(CollectionChanged(collection=self.board.collection()))
+        self._report_problems()
 
     def laid_out(self, run: Path | None, metric: Metric) -> Board:
         """The board that ``show`` puts up, without putting it up. Raises RunError."""
@@ -92,38 +98,39 @@ class Showing:
         return board
 
     @property
-    def missing(self) -> list[str]:
+    def missing(self) -> list[Slug]:
         """Slugs of the references whose picture is not known yet."""
-        return [slug for slug, tile in self.board.tiles.items() if tile.reference is None]
+        return [slug for slug, state in self.board.references.items() if state.reference is None]
 
     @property
-    def found(self) -> dict[str, Parameters]:
-        """Parameters by slug, as far as there are any."""
-        return {slug: tile.parameters for slug, tile in self.board.tiles.items() if tile.parameters is not None}
+    def parameters(self) -> dict[Slug, Values]:
+        """Those of all replicas that are known."""
+        states = self.board.references.items()
+        return {slug: state.parameters for slug, state in states if state.parameters is not None}
 
-    def slugs(self) -> dict[str, str]:
+    def slugs(self) -> dict[str, Slug]:
         """By name."""
-        return {tile.name: slug for slug, tile in self.board.tiles.items()}
+        return {state.name: slug for slug, state in self.board.references.items()}
 
-    def drawn(self, slug: str, png: bytes) -> None:
+    def drawn(self, slug: Slug, png: bytes) -> None:
         """Take up the picture of a reference."""
         self._change(slug, reference=self.pictures.add(png))
 
-    def unreadable(self, slug: str, reason: str) -> None:
+    def unreadable(self, slug: Slug, reason: str) -> None:
         """Leave a reference out that cannot be read."""
-        if slug in self.board.tiles:
+        if slug in self.board.references:
             path = str(self.listed.sources[slug].path)
             self._unreadable[slug] = path, reason
             self.board = self.board.without(slug, path, reason)
-            self.pages.publish("collection", collection=self.board.record())
+            self.pages.publish(CollectionChanged(collection=self.board.collection()))
 
     def stale(self) -> None:
         """Everything shown is of an older version."""
         self.board = self.board.with_all(stale=True)
-        self.pages.publish("collection", collection=self.board.record())
+        self.pages.publish(CollectionChanged(collection=self.board.collection()))
 
-    def begin_sweep(self, stage: Stage, slugs: list[str]) -> int:
-        """The number of a sweep that is about to begin; what earlier ones still tell is passed over."""
+    def begin_sweep(self, stage: Stage, slugs: list[Slug]) -> int:
+        """The number of a sweep that is about to begin; what earlier ones still send is passed over."""
         self._forget_pictures()
         self._sweep += 1
         self._stage = stage
@@ -135,54 +142,62 @@ class Showing:
         self._sweep += 1
         self.swept.set()
 
-    def take(self, message: Mapping[str, Any], payload: bytes) -> None:
-        """Apply what the bench tells of a sweep."""
-        if message["sweep"] != self._sweep:
+    def take(self, message: Swept | Measured | SweepEnded, payload: bytes) -> None:
+        """Apply what the bench says of a sweep."""
+        if message.sweep != self._sweep:
             return
-        if message["type"] == "swept all":
-            self._left.clear()
-        elif message["slug"] in self.board.tiles and message["type"] == "measured":
-            self._change(message["slug"], distance=message["distance"])
-        elif message["slug"] in self.board.tiles:
-            self._take_built(message, payload)
-            self._left.discard(message["slug"])
+        match message:
+            case SweepEnded():
+                self._left.clear()
+            case Measured():
+                self._change(message.slug, distance=message.distance)
+            case Swept():
+                self._take_replica(message, payload)
+                self._left.discard(message.slug)
         if not self._left:
             self.swept.set()
 
-    def _take_built(self, message: Mapping[str, Any], payload: bytes) -> None:
-        slug = message["slug"]
-        if message["problem"]:
-            found = replace(Problem.from_record(message["problem"]), slugs=(slug,))
-            self._change(slug, problem=found, stale=True, distance=None)
+    def _take_replica(self, message: Swept, payload: bytes) -> None:
+        if message.problem:
+            self._change(message.slug, problem=message.problem.of(message.slug), stale=True, distance=None)
             return
-        changes = {name: message[name] for name in ("parameters", "active", "at_limit")}
-        replica = self.pictures.add(payload)
-        self._change(slug, **changes, replica=replica, distance=None, stage=self._stage, stale=False, problem=None)
+        self._change(
+            message.slug,
+            parameters=message.parameters,
+            active=tuple(message.active),
+            at_limit=tuple(message.at_limit),
+            replica=self.pictures.add(payload),
+            distance=None,
+            stage=self._stage,
+            stale=False,
+            problem=None,
+        )
 
-    def _change(self, slug: str, **changes: Any) -> None:
-        if slug not in self.board.tiles:
+    def _change(self, slug: Slug, **changes: Any) -> None:
+        if slug not in self.board.references:
             return
-        self.board.with_tile(slug, **changes)
+        self.board = self.board.with_reference(slug, **changes)
         if not self._dirty:
             asyncio.get_running_loop().call_later(_SETTLE, self._flush)
         self._dirty.add(slug)
 
     def _flush(self) -> None:
-        tiles = [self.board.tiles[slug] for slug in sorted(self._dirty) if slug in self.board.tiles]
+        states = [self.board.references[slug] for slug in sorted(self._dirty) if slug in self.board.references]
         self._dirty.clear()
-        self.pages.publish("tiles", tiles=[tile.record(self.board.metric) for tile in tiles])
-        self._tell_problems()
+        self.pages.publish(TilesChanged(tiles=[state.tile(self.board.metric) for state in states]))
+        self._report_problems()
 
-    def _tell_problems(self) -> None:
-        found = self.board.problems()
-        if found != self._told:
-            self._told = found
-            self._on_problems(found)
+    def _report_problems(self) -> None:
+        problems = self.board.problems()
+        if problems != self._reported:
+            self._reported = problems
+            self._on_problems(problems)
 
-    def _kept(self, slug: str) -> str | None:
+    def _kept(self, slug: Slug) -> str | None:
         path = kept_picture(self.cache, self.listed.sources[slug]) if self.cache else None
         return self.pictures.add_file(path) if path else None
 
     def _forget_pictures(self) -> None:
-        shown = (address for tile in self.board.tiles.values() for address in (tile.reference, tile.replica))
+        states = self.board.references.values()
+        shown = (address for state in states for address in (state.reference, state.replica))
         self.pictures.keep({address for address in shown if address})

@@ -1,0 +1,169 @@
+"""What the server and the bench say to each other."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, TypeAlias
+
+from msgspec import Struct
+
+from shapewright.settings import Align
+from shapewright.studio.project.listing import Origin
+from shapewright.studio.wire.board import Parameter
+from shapewright.studio.wire.problems import Problem
+from shapewright.studio.wire.requests import Evaluate
+from shapewright.studio.wire.shapes import DistanceMessage, DrawingMessage, FailedMessage
+from shapewright.studio.wire.values import Slug, Values
+
+
+class BenchMessage(Struct, frozen=True, kw_only=True, tag_field="type", tag=str.lower):
+    """Any of them; its type is the name of the class."""
+
+
+class References(BenchMessage, frozen=True):
+    """Where the references are, and how replicas are measured.
+
+    cache: a folder for pictures and descriptors.
+    align: see Settings.
+    seed: see Settings.
+    """
+
+    origin: Origin
+    cache: str | None
+    align: Align
+    seed: int
+
+
+class Pictures(BenchMessage, frozen=True):
+    """Draw these references."""
+
+    slugs: list[Slug]
+
+
+class First(BenchMessage, frozen=True):
+    """The author looks at these; they come before the others."""
+
+    slugs: list[Slug]
+
+
+class Load(BenchMessage, frozen=True):
+    """Take a version of the procedure up. load: its number. seconds, memory_mb: limits of one shape."""
+
+    load: int
+    procedure: str
+    seconds: float
+    memory_mb: int
+
+
+class SweepOrder(BenchMessage, frozen=True):
+    """Build a replica for each of these parameters, draw and measure it."""
+
+    sweep: int
+    items: dict[Slug, Values]
+
+
+class Live(BenchMessage, frozen=True):
+    """Answer a page's evaluation. client: the page."""
+
+    client: int
+    evaluate: Evaluate
+
+
+class Fetch(BenchMessage, frozen=True):
+    """Tell one thing about a reference. request: number that the reply carries."""
+
+    request: int
+    slug: Slug
+    what: Literal["about", "shape", "render"]
+    parameters: Values | None = None
+    azimuth: float = 0.0
+    elevation: float = 0.0
+    size: int = 0
+
+
+class End(BenchMessage, frozen=True):
+    """The server has gone."""
+
+
+Request: TypeAlias = References | Pictures | First | Load | SweepOrder | Live | Fetch | End
+
+
+class Ready(BenchMessage, frozen=True):
+    """The bench listens."""
+
+
+class Drawn(BenchMessage, frozen=True):
+    """A reference was drawn; the payload is a PNG."""
+
+    slug: Slug
+
+
+class Unreadable(BenchMessage, frozen=True):
+    """A reference cannot be read or drawn."""
+
+    slug: Slug
+    reason: str
+
+
+class Loaded(BenchMessage, frozen=True):
+    """The procedure was read."""
+
+    load: int
+    name: str
+    parameters: list[Parameter]
+    defaults: Values
+
+
+class Unusable(BenchMessage, frozen=True):
+    """The procedure cannot be used. load: null where it was usable at first."""
+
+    load: int | None
+    problem: Problem
+
+
+class Swept(BenchMessage, frozen=True):
+    """A replica of a sweep was built, or why not; the payload is a PNG of it."""
+
+    sweep: int
+    slug: Slug
+    parameters: Values
+    active: list[str]
+    at_limit: list[str]
+    problem: Problem | None
+
+
+class Measured(BenchMessage, frozen=True):
+    """A replica of a sweep was measured."""
+
+    sweep: int
+    slug: Slug
+    distance: float | None
+
+
+class SweepEnded(BenchMessage, frozen=True):
+    """given_up: too many shapes exceeded the time limit."""
+
+    sweep: int
+    given_up: bool
+
+
+LiveMessage: TypeAlias = DistanceMessage | DrawingMessage | FailedMessage
+
+
+class Answered(BenchMessage, frozen=True):
+    """To a page: a message, or None with a binary message as payload."""
+
+    client: int
+    message: LiveMessage | None
+
+
+class Reply(BenchMessage, frozen=True):
+    """To a Fetch: a message as plain values, or None with a payload. error: there is no such thing."""
+
+    request: int
+    message: Any = None
+    error: str | None = None
+
+
+News: TypeAlias = Drawn | Unreadable | Loaded | Unusable | Swept | Measured | SweepEnded
+"""What the session is told."""
+Answer: TypeAlias = Ready | Answered | Reply | News

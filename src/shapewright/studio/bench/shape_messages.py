@@ -1,0 +1,107 @@
+"""Messages of shapes: meshes, residuals, drawings, and what is known of a reference."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import shapely
+
+from shapewright.judging.target import Measures
+from shapewright.references.collection import Reference
+from shapewright.shapes import Drawing, Mesh
+from shapewright.studio.bench.built import Built
+from shapewright.studio.bench.residual_colours import LIMIT, Residual
+from shapewright.studio.wire.frames import binary
+from shapewright.studio.wire.references import About, Units
+from shapewright.studio.wire.shapes import DistanceMessage, DrawingMessage, Extent, MeshHead, ResidualsHead
+from shapewright.studio.wire.values import Slug
+
+_DIGITS = 5
+_LEAST = 1e-7  # of the area that a path shows; two equal edges leave slivers of rounding between them
+
+
+def about(reference: Reference) -> About:
+    """The triangles and notes of a reference, and the way back to its own units and axes."""
+    shape, solid = reference.shape, isinstance(reference.shape, Mesh)
+    extent = (shape.bounds[1] - shape.bounds[0]) / reference.transform.scale
+    return About(
+        triangles=len(shape.faces) if isinstance(shape, Mesh) else None,
+        notes=list(reference.notes),
+        units=Units(
+            centre=list(reference.transform.centre),
+            scale=reference.transform.scale,
+            axes=(reference.orientation.matrix if solid else np.eye(2)).tolist(),
+            size=np.abs(reference.orientation.invert(extent) if solid else extent).tolist(),
+        ),
+    )
+
+
+def plain(measure: float) -> float | None:
+    """A measure for JSON, which has no NaN."""
+    return None if math.isnan(measure) else measure
+
+
+def distance_message(measures: Measures, number: int, slug: Slug) -> DistanceMessage:
+    """Of a replica; distance, IoU and Chamfer distance are None where they cannot be measured."""
+    return DistanceMessage(
+        id=number,
+        slug=slug,
+        distance=plain(measures.distance),
+        iou=plain(measures.iou),
+        chamfer=plain(measures.chamfer),
+    )
+
+
+def outcome(built: Built) -> dict[str, Any]:
+    """What the message of a replica says of it besides its shape."""
+    shape = built.build.shape
+    assert shape is not None
+    return {
+        "parameters": built.build.parameters,
+        "active": list(built.active),
+        "at_limit": list(built.at_limit),
+        "units": Extent(size=(shape.bounds[1] - shape.bounds[0]).tolist()),
+        "milliseconds": round(1000.0 * built.build.seconds, 2),
+    }
+
+
+def drawing_message(drawing: Drawing, reference: Drawing | None, **head: Any) -> DrawingMessage:
+    """A drawing's outline, and where a reference is given, what only one of the two covers. head: other fields."""
+    missing = excess = None
+    if reference is not None:
+        missing = path(reference.geometry.difference(drawing.geometry))
+        excess = path(drawing.geometry.difference(reference.geometry))
+    return DrawingMessage(**head, path=path(drawing.geometry), missing=missing, excess=excess)
+
+
+def path(geometry: Any) -> str:
+    """The area of a shapely geometry as SVG path data, to be filled by the even-odd rule; y up."""
+    areas = [part for part in shapely.get_parts(geometry) if part.area > _LEAST]
+    rings = (np.round(shapely.get_coordinates(ring), _DIGITS) for ring in shapely.get_rings(areas))
+    return "".join("M" + "L".join(f"{x:g} {y:g}" for x, y in ring[:-1].tolist()) + "Z" for ring in rings)
+
+
+def mesh_message(mesh: Mesh, **head: Any) -> bytes:
+    """The binary message ``mesh``; its vertices are those of ``mesh`` as they are. head: other fields."""
+    buffers: dict[str, Any] = {
+        "positions": mesh.vertices.astype(np.float32).ravel(),
+        "indices": mesh.faces.astype(np.uint32).ravel(),
+    }
+    if mesh.face_labels is not None:
+        buffers["labels"] = mesh.face_labels.astype(np.int32)
+    head |= {"vertices": len(mesh.vertices), "triangles": len(mesh.faces)}
+    return binary(MeshHead(**head, label_names=list(mesh.label_names)), buffers)
+
+
+def residual_message(residual: Residual, **head: Any) -> bytes:
+    """The binary message ``residuals``. head: other fields."""
+    head |= {"vertices": len(residual.vertices), "triangles": len(residual.faces)}
+    buffers = {
+        "positions": residual.vertices.astype(np.float32).ravel(),
+        "indices": residual.faces.astype(np.uint32).ravel(),
+        "colours": residual.colours.astype(np.float32).ravel(),
+        "distances": residual.distances.astype(np.float32),
+    }
+    return binary(ResidualsHead(**head, signed=residual.signed, limit=LIMIT), buffers)

@@ -1,0 +1,113 @@
+"""What the program of a job reports to the server, and how."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from pathlib import Path
+from typing import Any, BinaryIO, NoReturn, TypeAlias
+
+from msgspec import Struct
+
+from shapewright.progress import AnswerKind, Progress
+from shapewright.studio.wire.child import own_streams, read_frame, write_frame
+from shapewright.studio.wire.jobs import Epoch, JobResult
+from shapewright.studio.wire.problems import Problem, ProblemKind, of_error
+from shapewright.studio.wire.values import Values
+
+
+class Event(Struct, frozen=True, kw_only=True, tag=True):
+    """Any of them."""
+
+
+class Advanced(Event, frozen=True):
+    """A stage went on. losses: of an epoch that ended."""
+
+    stage: str
+    done: int
+    total: int
+    remark: str = ""
+    losses: Epoch | None = None
+
+
+class Guessed(Event, frozen=True):
+    """Parameters are known before the end of a fit. answer: by name of the reference."""
+
+    kind: AnswerKind
+    answer: dict[str, Values]
+
+
+class Failed(Event, frozen=True):
+    """The job ends without a result."""
+
+    problem: Problem
+
+
+class Done(Event, frozen=True):
+    """The job ends with a result."""
+
+    result: JobResult
+
+
+AnyEvent: TypeAlias = Advanced | Guessed | Failed | Done
+
+
+class Reporter:
+    """Sends events over a stream."""
+
+    def __init__(self, stream: BinaryIO) -> None:
+        self._stream = stream
+
+    def send(self, event: AnyEvent) -> None:
+        write_frame(self._stream, event)
+
+    def stage(self, name: str, done: int, total: int) -> None:
+        """Report how far a stage is."""
+        self.send(Advanced(stage=name, done=done, total=total))
+
+    def progress(self, progress: Progress) -> None:
+        """Report what a listener is told."""
+        if progress.answer is not None and progress.answer_kind is not None:
+            self.send(Guessed(kind=progress.answer_kind, answer=dict(progress.answer)))
+            return
+        losses = Epoch(**progress.losses) if progress.losses else None  # type: ignore[arg-type]
+        self.send(
+            Advanced(
+                stage=progress.stage, done=progress.done, total=progress.total, remark=progress.remark, losses=losses
+            )
+        )
+
+    def done(self, **result: Any) -> None:
+        """Report the result."""
+        self.send(Done(result=JobResult(**result)))
+
+    def fail(self, error: Exception, kind: ProblemKind, root: str) -> NoReturn:
+        """End the program with the problem that an error is. root: folder that files are named relative to."""
+        self.send(Failed(problem=of_error(error, kind, Path(root))))
+        sys.exit(1)
+
+
+def begin() -> tuple[dict[str, Any], Reporter]:
+    """The request of the program that runs, and where it reports.
+
+    When the stream of requests closes the studio has gone, and so does this program, with all that it started. It gives
+    way to live evaluation.
+    """
+    if hasattr(os, "nice"):
+        os.nice(5)
+    requests, events = own_streams()
+    frame = read_frame(requests)
+    if frame is None:
+        sys.exit(1)
+
+    def watch() -> None:
+        while read_frame(requests):
+            pass
+        if os.name == "posix":
+            os.killpg(os.getpgrp(), signal.SIGKILL)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+    return frame[0], Reporter(events)

@@ -1,0 +1,107 @@
+"""The bench as the session uses it: what it has to know, and what waits while it starts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Literal, TypeAlias
+
+from msgspec.structs import replace
+
+from shapewright.settings import Settings
+from shapewright.studio.bench.client import BenchProcess
+from shapewright.studio.bench.messages import First, Live, LiveMessage, Load, News, Pictures, References, SweepOrder
+from shapewright.studio.project.authored import Authored
+from shapewright.studio.project.workspace import Project
+from shapewright.studio.session.board import tint
+from shapewright.studio.session.display import Display
+from shapewright.studio.session.pages import Pages
+from shapewright.studio.wire.board import Stage
+from shapewright.studio.wire.requests import Evaluate
+from shapewright.studio.wire.shapes import DistanceMessage
+from shapewright.studio.wire.values import Slug, Values
+
+BenchState: TypeAlias = Literal["starting", "ready", "restarting"]
+
+
+class BenchLink:
+    """The bench of a session."""
+
+    def __init__(
+        self,
+        project: Project,
+        authored: Authored,
+        display: Display,
+        pages: Pages,
+        heard: Callable[[News, bytes], object],
+        changed: Callable[[], object],
+    ) -> None:
+        """heard: called with every message of the bench for the session. changed: called whenever ``state`` does."""
+        self._project, self._authored, self._display, self._pages = project, authored, display, pages
+        self.process = BenchProcess(heard, self._answered, self._started, self._lost)
+        self.state: BenchState = "starting"
+        self._changed = changed
+        self._waiting: dict[int, Evaluate] = {}
+        self._first: list[Slug] = []
+
+    def evaluate(self, page: int, request: Evaluate) -> None:
+        """Live evaluation; what a page asks while the bench starts waits, the newest alone."""
+        if self.state != "ready" or self._authored.state == "loading":
+            self._waiting[page] = request
+            return
+        shown = self._display.board.references.get(request.slug) if request.slug is not None else None
+        values = self._authored.values(shown.parameters if shown else None, request.parameters)
+        self.process.ask(Live(client=page, evaluate=replace(request, parameters=values)))
+
+    def evaluate_waiting(self) -> None:
+        """Ask what had to wait."""
+        waiting, self._waiting = self._waiting, {}
+        for page, request in waiting.items():
+            self.evaluate(page, request)
+
+    def forget(self, page: int) -> None:
+        """A page has gone."""
+        self._waiting.pop(page, None)
+
+    def put_first(self, slugs: list[Slug]) -> None:
+        """The author looks at these references."""
+        self._first = slugs
+        self.process.ask(First(slugs=slugs))
+
+    def list_references(self, settings: Settings) -> None:
+        """The references are others, or are measured otherwise."""
+        cache = str(self._display.cache) if self._display.cache else None
+        origin, align, seed = self._project.origin, settings.align, settings.seed
+        self.process.ask(References(origin=origin, cache=cache, align=align, seed=seed))
+        self.process.ask(First(slugs=self._first))
+        self.process.ask(Pictures(slugs=self._display.missing))
+
+    def load(self, settings: Settings) -> None:
+        """The procedure is another."""
+        self.process.ask(
+            Load(
+                load=self._authored.load,
+                procedure=str(self._project.procedure),
+                seconds=settings.shape_seconds,
+                memory_mb=settings.shape_memory_mb,
+            )
+        )
+
+    def sweep(self, stage: Stage, items: Mapping[Slug, Values]) -> None:
+        """Show replicas with these parameters."""
+        number = self._display.begin_sweep(stage, list(items))
+        self.process.ask(SweepOrder(sweep=number, items=dict(items)))
+
+    def _started(self) -> None:
+        self.state = "ready"
+        self._changed()
+
+    def _lost(self) -> None:
+        self.state = "restarting"
+        self._changed()
+
+    def _answered(self, page: int, message: LiveMessage | None, payload: bytes) -> None:
+        if isinstance(message, DistanceMessage):
+            metric, distance = self._display.board.metric, message.distance
+            within = distance is not None and distance <= metric.threshold
+            message = replace(message, colour=tint(distance, metric), compatible=within)
+        self._pages.send(page, payload if message is None else message)

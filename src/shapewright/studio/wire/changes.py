@@ -1,0 +1,146 @@
+"""The state of the studio, and messages that replace parts of it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from msgspec import Meta, Struct
+
+from shapewright.settings import Preset, Refine
+from shapewright.studio.wire.board import Collection, Mark, Procedure, Tile
+from shapewright.studio.wire.jobs import Job, JobKind
+from shapewright.studio.wire.problems import Problem
+from shapewright.studio.wire.runs import Run
+from shapewright.studio.wire.values import Message
+
+
+class ProjectNames(Struct, frozen=True, kw_only=True):
+    """Of the author's project: its name, and where its parts are."""
+
+    name: str
+    folder: str
+    procedure: str
+    references: str
+
+
+class ChosenSettings(Struct, frozen=True, kw_only=True):
+    """What the author chose.
+
+    auto_fit: a fit follows every save.
+    fresh: fits do not resume the run before.
+    threshold: largest distance of a compatible mesh.
+    fidelity: least visual information fidelity of a compatible drawing.
+    shape_seconds: what building one shape may take.
+    """
+
+    auto_fit: bool
+    fresh: bool
+    preset: Preset
+    samples: int
+    epochs: int
+    refine: Refine
+    rounds: int
+    seed: int
+    threshold: float
+    fidelity: float
+    shape_seconds: float
+
+
+class State(Message, frozen=True, kw_only=True, tag="state"):
+    """Everything. It is the first message, and replaces all.
+
+    bench: the process that measures; live evaluation waits until it is ready.
+    runs: the oldest first.
+    explanation: the run that is shown has one.
+    problems: of the whole project, the worst first; empty when all is well.
+    """
+
+    version: str
+    project: ProjectNames
+    dimension: Literal[2, 3]
+    bench: Literal["starting", "ready", "restarting"]
+    procedure: Procedure
+    collection: Collection
+    jobs: dict[JobKind, Job]
+    runs: list[Run]
+    settings: ChosenSettings
+    marks: list[Mark]
+    explanation: bool
+    problems: list[Problem]
+
+
+class ProcedureChanged(Message, frozen=True, kw_only=True, tag="procedure"):
+    """Replaces ``State.procedure``."""
+
+    procedure: Procedure
+
+
+class TilesChanged(Message, frozen=True, kw_only=True, tag="tiles"):
+    """Replaces the tiles with these slugs; one whose slug is not known is new."""
+
+    tiles: list[Tile]
+
+
+class CollectionChanged(Message, frozen=True, kw_only=True, tag="collection"):
+    """Replaces ``State.collection``."""
+
+    collection: Collection
+
+
+class JobChanged(Message, frozen=True, kw_only=True, tag="job"):
+    """Replaces the job of this kind."""
+
+    job: Job
+
+
+class RunsChanged(Message, frozen=True, kw_only=True, tag="runs"):
+    """Replaces ``State.runs``."""
+
+    runs: list[Run]
+
+
+class MarksChanged(Message, frozen=True, kw_only=True, tag="marks"):
+    """Replaces ``State.marks``."""
+
+    marks: list[Mark]
+
+
+class SettingsChanged(Message, frozen=True, kw_only=True, tag="settings"):
+    """Replaces ``State.settings``."""
+
+    settings: ChosenSettings
+
+
+class ProblemsChanged(Message, frozen=True, kw_only=True, tag="problems"):
+    """Replaces ``State.problems``."""
+
+    problems: list[Problem]
+
+
+class ExplanationChanged(Message, frozen=True, kw_only=True, tag="explanation"):
+    """Replaces ``State.explanation``."""
+
+    explanation: bool
+
+
+class WrongMessage(Message, frozen=True, kw_only=True, tag="wrong"):
+    """Answers a message of the page that makes no sense."""
+
+    error: str
+
+
+Change: TypeAlias = Annotated[
+    State
+    | ProcedureChanged
+    | TilesChanged
+    | CollectionChanged
+    | JobChanged
+    | RunsChanged
+    | MarksChanged
+    | SettingsChanged
+    | ProblemsChanged
+    | ExplanationChanged
+    | WrongMessage,
+    Meta(title="Change"),
+]
+"""What the server sends besides answers of live evaluation."""

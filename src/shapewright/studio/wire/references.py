@@ -1,0 +1,146 @@
+"""One reference in full, and explanations.
+
+Explanations are read from ``explanation.json`` of a run and passed on as they are, so their types are those of
+dictionaries: fields that are not named here stay.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NotRequired, TypedDict
+
+from msgspec import Struct
+
+from shapewright.studio.wire.board import Stage
+from shapewright.studio.wire.problems import Problem
+from shapewright.studio.wire.values import Address, Slug, Values, Vector
+
+
+class Units(Struct, frozen=True, kw_only=True):
+    """The way back from the normalised frame: own = axes^T @ (normalised / scale + centre). In 2D, vectors of two.
+
+    axes: unit vectors.
+    size: extents in own units, along the file's axes.
+    """
+
+    centre: list[float]
+    scale: float
+    axes: list[list[float]]
+    size: list[float]
+
+
+class About(Struct, frozen=True, kw_only=True):
+    """What only somebody who has read its file knows of a reference. triangles: null of a drawing."""
+
+    triangles: int | None
+    notes: list[str]
+    units: Units
+
+
+class Placement(TypedDict):
+    """Where the replica stood when the two were compared: (normalised - centre) * scale."""
+
+    centre: Vector
+    scale: float
+
+
+class Region(TypedDict):
+    """A box around what one surface has and the other has not, in the normalised frame.
+
+    side: unexplained ones are of the reference, surplus ones of the replica.
+    axes: unit vectors.
+    """
+
+    side: Literal["unexplained", "surplus"]
+    centre: Vector
+    size: Vector
+    axes: tuple[Vector, Vector, Vector]
+    share: float | None
+    distance: float | None
+    label: str | None
+    rule: str | None
+
+
+class Cause(TypedDict):
+    """Why a replica differs."""
+
+    kind: str
+    text: str
+    evidence: Any
+
+
+class ReferenceExplanation(TypedDict):
+    """Why one reference is not replicated; explanations of earlier versions have no placement."""
+
+    causes: list[Cause]
+    regions: list[Region]
+    placement: NotRequired[Placement]
+
+
+class SharedCause(TypedDict):
+    """References that share a cause."""
+
+    kind: str
+    text: str
+    references: list[Slug]
+    representative: NotRequired[Slug | None]
+
+
+class Suggestion(TypedDict):
+    """A change of the procedure.
+
+    source: the procedure with the change; null where there is nothing to apply.
+    references: those that it would help.
+    """
+
+    kind: str
+    title: str
+    text: str
+    snippet: str | None
+    source: str | None
+    picture: Address | None
+    references: list[Slug]
+    gain: float | None
+    tried: Any
+
+
+class Explanation(TypedDict):
+    """The explanation of the run that is shown."""
+
+    references: dict[Slug, ReferenceExplanation]
+    summary: list[SharedCause]
+    suggestions: list[Suggestion]
+
+
+class Reference(Struct, frozen=True, kw_only=True):
+    """One reference in full.
+
+    path: of its file, relative to the project where it lies inside.
+    triangles: null of a drawing, and while the bench starts.
+    units: null while the bench starts.
+    parameters: of the replica that is shown.
+    predicted: what the network said, before the search.
+    spread: of scalars, about the size of the error to expect, in the parameter's own units.
+    likelihood: of the values of other parameters; values that are no text are written as JSON.
+    """
+
+    slug: Slug
+    name: str
+    path: str | None
+    triangles: int | None
+    notes: list[str]
+    units: Units | None
+    parameters: Values | None
+    active: list[str]
+    at_limit: list[str]
+    distance: float | None
+    iou: float | None
+    chamfer: float | None
+    colour: str | None
+    compatible: bool
+    group: int | None
+    stage: Stage
+    problem: Problem | None
+    predicted: Values | None
+    spread: dict[str, float] | None
+    likelihood: dict[str, dict[str, float]] | None
+    explanation: ReferenceExplanation | None

@@ -1,0 +1,106 @@
+"""Answers of live evaluation: shapes, and how far they are from their reference.
+
+The heads of ``mesh`` and ``residuals`` begin binary messages, see ``frames``.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from msgspec import UNSET, Meta, Struct, UnsetType, field
+
+from shapewright.studio.wire.problems import Problem
+from shapewright.studio.wire.values import Message, Slug, Values
+
+Side: TypeAlias = Annotated[Literal["replica", "reference"], Meta(title="Side")]
+BufferKind: TypeAlias = Annotated[Literal["f32", "u32", "i32"], Meta(title="BufferKind")]
+Buffer: TypeAlias = Annotated[tuple[str, BufferKind, int], Meta(title="Buffer")]
+"""Name, kind and number of values of a buffer."""
+
+
+class Extent(Struct, frozen=True, kw_only=True):
+    """size: extents of a replica in the procedure's own units."""
+
+    size: list[float]
+
+
+class ShapeMessage(Message, frozen=True, kw_only=True):
+    """A shape in the normalised frame. What follows ``shape`` is of a replica alone.
+
+    id: of the evaluation that it answers; 0 where it answers a request of HTTP.
+    parameters: what the values that were asked for became.
+    active: parameters that matter there.
+    at_limit: parameters at an end of their Range.
+    milliseconds: what the procedure took.
+    """
+
+    id: int
+    slug: Slug | None
+    shape: Side
+    parameters: Values | UnsetType = UNSET
+    active: list[str] | UnsetType = UNSET
+    at_limit: list[str] | UnsetType = UNSET
+    units: Extent | UnsetType = UNSET
+    milliseconds: float | UnsetType = UNSET
+
+
+class MeshHead(ShapeMessage, frozen=True, kw_only=True, tag="mesh"):
+    """Of a binary message: positions (f32, 3 a vertex), indices (u32, 3 a triangle), labels (i32, 1 a triangle).
+
+    label_names: ``labels`` are indices into it, -1 without a label; no buffer when nothing is labelled.
+    """
+
+    vertices: int
+    triangles: int
+    label_names: list[str]
+    buffers: list[Buffer] = field(default_factory=list)
+
+
+class ResidualsHead(Message, frozen=True, kw_only=True, tag="residuals"):
+    """Of a binary message: positions, indices, colours (f32, 3 a vertex, linear light), distances (f32, 1 a vertex).
+
+    signed: distances are negative inside the other shape.
+    limit: distance at the end of the colour scale.
+    """
+
+    id: int
+    slug: Slug | None
+    shape: Side
+    vertices: int
+    triangles: int
+    signed: bool
+    limit: float
+    buffers: list[Buffer] = field(default_factory=list)
+
+
+class DrawingMessage(ShapeMessage, frozen=True, kw_only=True, tag="drawing"):
+    """A drawing as SVG path data, y up, to be filled by the even-odd rule.
+
+    missing: what the reference covers and the replica does not.
+    excess: what the replica covers and the reference does not.
+    """
+
+    path: str
+    missing: str | None
+    excess: str | None
+
+
+class DistanceMessage(Message, frozen=True, kw_only=True, tag="distance"):
+    """How far a replica is from its reference; null where that cannot be measured."""
+
+    id: int
+    slug: Slug | None
+    distance: float | None
+    iou: float | None
+    chamfer: float | None
+    colour: str | None = None
+    compatible: bool = False
+
+
+class FailedMessage(Message, frozen=True, kw_only=True, tag="failed"):
+    """There is no replica at these parameters. active: null where that is not known."""
+
+    id: int
+    slug: Slug | None
+    problem: Problem
+    active: list[str] | None

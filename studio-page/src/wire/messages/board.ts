@@ -1,0 +1,102 @@
+// Made from src/shapewright/studio/wire/board.py by `python -m shapewright.studio.wire.typescript`.
+
+import type { Address, Slug, Value } from "./values";
+import type { Problem } from "./problems";
+
+export type Stage = "none" | "carried" | "early" | "predicted" | "trained";
+
+/** One reference and its replica. */
+export interface Tile {
+  slug: Slug;
+  /** what people read. */
+  name: string;
+  /** its picture, square on transparent; null until it is drawn. */
+  reference: Address | null;
+  /** picture of the replica; null until there is one. */
+  replica: Address | null;
+  /** null until it is measured, which may be a moment after the replica is shown. */
+  distance: number | null;
+  /** of the distance: green at 0, yellow at the threshold, red far beyond it. */
+  colour: string | null;
+  compatible: boolean;
+  /** index into the collection's groups; while a fit runs, these are those of the run before. */
+  group: number | null;
+  stage: Stage;
+  /** the replica is of an older version of the procedure. */
+  stale: boolean;
+  /** distance in the run before. */
+  previous: number | null;
+  /** parameters at an end of their Range. */
+  at_limit: string[];
+  problem: Problem | null;
+}
+
+/** Incompatible references that look alike. */
+export interface Group {
+  /** the nearest to the group's centre; null when none of its members is there any more. */
+  representative: Slug | null;
+  /** the nearest to the centre first. */
+  members: Slug[];
+}
+
+/** A file that could not be read. */
+export interface Skipped {
+  path: string;
+  reason: string;
+}
+
+/** All references. */
+export interface Collection {
+  /** the run that is shown; null before the first. */
+  run: string | null;
+  threshold: number;
+  /** what distances are. */
+  measure: string;
+  /** when a replica is compatible, in words. */
+  criterion: string;
+  count: number;
+  compatible: number;
+  /** in natural order of names. */
+  tiles: Tile[];
+  /** the largest first. */
+  groups: Group[];
+  skipped: Skipped[];
+}
+
+/** One parameter of the procedure. */
+export interface Parameter {
+  name: string;
+  kind: "scalar" | "integer" | "choice" | "binary";
+  /** of a scalar or an integer. */
+  low: number | null;
+  /** of a scalar or an integer. */
+  high: number | null;
+  /** of a scalar: how many values, or which, it is sampled at; any value between is allowed. */
+  steps: number | number[] | null;
+  /** of a choice. */
+  options: Value[] | null;
+  default: Value;
+  /** it has a ``when``; every evaluation says which parameters are active. */
+  conditional: boolean;
+}
+
+/** The procedure on disk. */
+export interface Procedure {
+  /** when broken, the parameters are those of the last good version. */
+  state: "loading" | "good" | "broken";
+  /** the collection shows an older version than the file on disk. */
+  stale: boolean;
+  name: string;
+  /** of the text on disk. */
+  digest: string;
+  /** digest of the version that the newest fit used. */
+  fitted: string | null;
+  parameters: Parameter[];
+}
+
+/** Whether a person finds two references the same; where ``a`` is ``b``, the reference and its own replica. */
+export interface Mark {
+  a: Slug;
+  b: Slug;
+  same: boolean;
+}

@@ -1,0 +1,117 @@
+// Made from src/shapewright/studio/wire/changes.py by `python -m shapewright.studio.wire.typescript`.
+
+import type { Collection, Mark, Procedure, Tile } from "./board";
+import type { Job, JobKind } from "./jobs";
+import type { Problem } from "./problems";
+import type { Run } from "./runs";
+
+/** Of the author's project: its name, and where its parts are. */
+export interface ProjectNames {
+  name: string;
+  folder: string;
+  procedure: string;
+  references: string;
+}
+
+/** What the author chose. */
+export interface ChosenSettings {
+  /** a fit follows every save. */
+  auto_fit: boolean;
+  /** fits do not resume the run before. */
+  fresh: boolean;
+  preset: "fast" | "paper";
+  samples: number;
+  epochs: number;
+  refine: "off" | "quick" | "thorough";
+  rounds: number;
+  seed: number;
+  /** largest distance of a compatible mesh. */
+  threshold: number;
+  /** least visual information fidelity of a compatible drawing. */
+  fidelity: number;
+  /** what building one shape may take. */
+  shape_seconds: number;
+}
+
+/** Everything. It is the first message, and replaces all. */
+export interface State {
+  type: "state";
+  version: string;
+  project: ProjectNames;
+  dimension: 2 | 3;
+  /** the process that measures; live evaluation waits until it is ready. */
+  bench: "starting" | "ready" | "restarting";
+  procedure: Procedure;
+  collection: Collection;
+  jobs: Record<JobKind, Job>;
+  /** the oldest first. */
+  runs: Run[];
+  settings: ChosenSettings;
+  marks: Mark[];
+  /** the run that is shown has one. */
+  explanation: boolean;
+  /** of the whole project, the worst first; empty when all is well. */
+  problems: Problem[];
+}
+
+/** Replaces ``State.procedure``. */
+export interface ProcedureChanged {
+  type: "procedure";
+  procedure: Procedure;
+}
+
+/** Replaces the tiles with these slugs; one whose slug is not known is new. */
+export interface TilesChanged {
+  type: "tiles";
+  tiles: Tile[];
+}
+
+/** Replaces ``State.collection``. */
+export interface CollectionChanged {
+  type: "collection";
+  collection: Collection;
+}
+
+/** Replaces the job of this kind. */
+export interface JobChanged {
+  type: "job";
+  job: Job;
+}
+
+/** Replaces ``State.runs``. */
+export interface RunsChanged {
+  type: "runs";
+  runs: Run[];
+}
+
+/** Replaces ``State.marks``. */
+export interface MarksChanged {
+  type: "marks";
+  marks: Mark[];
+}
+
+/** Replaces ``State.settings``. */
+export interface SettingsChanged {
+  type: "settings";
+  settings: ChosenSettings;
+}
+
+/** Replaces ``State.problems``. */
+export interface ProblemsChanged {
+  type: "problems";
+  problems: Problem[];
+}
+
+/** Replaces ``State.explanation``. */
+export interface ExplanationChanged {
+  type: "explanation";
+  explanation: boolean;
+}
+
+/** Answers a message of the page that makes no sense. */
+export interface WrongMessage {
+  type: "wrong";
+  error: string;
+}
+
+export type Change = State | ProcedureChanged | TilesChanged | CollectionChanged | JobChanged | RunsChanged | MarksChanged | SettingsChanged | ProblemsChanged | ExplanationChanged | WrongMessage;

@@ -1,0 +1,118 @@
+// Made from src/shapewright/studio/wire/references.py by `python -m shapewright.studio.wire.typescript`.
+
+import type { Address, Slug, Values, Vector } from "./values";
+import type { Problem } from "./problems";
+import type { Stage } from "./board";
+
+/** The way back from the normalised frame: own = axes^T @ (normalised / scale + centre). In 2D, vectors of two. */
+export interface Units {
+  centre: number[];
+  scale: number;
+  /** unit vectors. */
+  axes: number[][];
+  /** extents in own units, along the file's axes. */
+  size: number[];
+}
+
+/** What only somebody who has read its file knows of a reference. triangles: null of a drawing. */
+export interface About {
+  triangles: number | null;
+  notes: string[];
+  units: Units;
+}
+
+/** Where the replica stood when the two were compared: (normalised - centre) * scale. */
+export interface Placement {
+  centre: Vector;
+  scale: number;
+}
+
+/** A box around what one surface has and the other has not, in the normalised frame. */
+export interface Region {
+  /** unexplained ones are of the reference, surplus ones of the replica. */
+  side: "unexplained" | "surplus";
+  centre: Vector;
+  size: Vector;
+  /** unit vectors. */
+  axes: [Vector, Vector, Vector];
+  share: number | null;
+  distance: number | null;
+  label: string | null;
+  rule: string | null;
+}
+
+/** Why a replica differs. */
+export interface Cause {
+  kind: string;
+  text: string;
+  evidence: unknown;
+}
+
+/** Why one reference is not replicated; explanations of earlier versions have no placement. */
+export interface ReferenceExplanation {
+  causes: Cause[];
+  regions: Region[];
+  placement?: Placement;
+}
+
+/** References that share a cause. */
+export interface SharedCause {
+  kind: string;
+  text: string;
+  references: Slug[];
+  representative?: Slug | null;
+}
+
+/** A change of the procedure. */
+export interface Suggestion {
+  kind: string;
+  title: string;
+  text: string;
+  snippet: string | null;
+  /** the procedure with the change; null where there is nothing to apply. */
+  source: string | null;
+  picture: Address | null;
+  /** those that it would help. */
+  references: Slug[];
+  gain: number | null;
+  tried: unknown;
+}
+
+/** The explanation of the run that is shown. */
+export interface Explanation {
+  references: Record<Slug, ReferenceExplanation>;
+  summary: SharedCause[];
+  suggestions: Suggestion[];
+}
+
+/** One reference in full. */
+export interface Reference {
+  slug: Slug;
+  name: string;
+  /** of its file, relative to the project where it lies inside. */
+  path: string | null;
+  /** null of a drawing, and while the bench starts. */
+  triangles: number | null;
+  notes: string[];
+  /** null while the bench starts. */
+  units: Units | null;
+  /** of the replica that is shown. */
+  parameters: Values | null;
+  active: string[];
+  at_limit: string[];
+  distance: number | null;
+  iou: number | null;
+  chamfer: number | null;
+  colour: string | null;
+  compatible: boolean;
+  group: number | null;
+  stage: Stage;
+  problem: Problem | null;
+  /** what the network said, before the search. */
+  predicted: Values | null;
+  /** of scalars, about the size of the error to expect, in the parameter's own units. */
+  spread: Record<string, number> | null;
+  /** of the values of other parameters; values that are no text are written as JSON. */
+  likelihood: Record<string, Record<string, number>> | null;
+  explanation: ReferenceExplanation | null;
+}

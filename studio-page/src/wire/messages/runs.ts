@@ -1,0 +1,84 @@
+// Made from src/shapewright/studio/wire/runs.py by `python -m shapewright.studio.wire.typescript`.
+
+import type { Address, Slug } from "./values";
+import type { Collection, Parameter } from "./board";
+import type { Epoch } from "./jobs";
+
+/** A run in short. */
+export interface Run {
+  run: string;
+  /** date and time, ISO 8601. */
+  created: string;
+  /** how many there are. */
+  references: number;
+  /** how many of them are. */
+  compatible: number;
+  /** how many there are. */
+  groups: number;
+  /** of the procedure's text. */
+  digest: string;
+  /** its name. */
+  procedure: string;
+  seconds: number;
+  /** it has an explanation. */
+  explained: boolean;
+  /** it is the one that is shown. */
+  current: boolean;
+}
+
+/** A whole run. */
+export interface RunDetail {
+  run: Run;
+  collection: Collection;
+  /** text of its procedure. */
+  source: string;
+  parameters: Parameter[];
+  settings: Record<string, unknown>;
+  /** by stage. */
+  seconds: Record<string, number>;
+  curve: Epoch[];
+  /** how well each parameter is predicted. */
+  validation: Record<string, Record<string, number | string | null>>;
+}
+
+/** A reference whose distance changed. */
+export interface Move {
+  name: string;
+  /** null for one that is not in the collection any more. */
+  slug: Slug | null;
+  before: number | null;
+  after: number | null;
+  colour_before: string | null;
+  colour_after: string | null;
+  reference: Address | null;
+  replica_before: Address | null;
+  replica_after: Address | null;
+}
+
+/** A line of two texts. */
+export interface DiffLine {
+  kind: "same" | "added" | "removed";
+  /** its number in the older one, from 1. */
+  before: number | null;
+  /** its number in the newer one. */
+  after: number | null;
+  text: string;
+}
+
+/** Two runs side by side. */
+export interface Comparison {
+  before: Run;
+  after: Run;
+  gained: Move[];
+  lost: Move[];
+  closer: Move[];
+  further: Move[];
+  /** how many references did not move. */
+  same: number;
+  /** names of references. */
+  added: string[];
+  /** names of references. */
+  removed: string[];
+  /** of the procedures, whole. */
+  diff: DiffLine[];
+}

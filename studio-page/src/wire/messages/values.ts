@@ -1,0 +1,11 @@
+// Made from src/shapewright/studio/wire/values.py by `python -m shapewright.studio.wire.typescript`.
+
+export type Slug = string;
+
+export type Value = number | boolean | string;
+
+export type Values = Record<string, Value>;
+
+export type Vector = [number, number, number];
+
+export type Address = string;
