@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
+from collections import Counter
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -32,3 +35,25 @@ def test_the_page() -> None:
     assert tests
     ran = subprocess.run([str(node()), "--test", *tests], cwd=PAGE, capture_output=True, text=True, timeout=120)
     assert ran.returncode == 0, ran.stdout
+
+
+MODULES = sorted(path for path in (PAGE / "src").rglob("*.ts*") if path.suffix in (".ts", ".tsx"))
+
+
+def imports(module: Path) -> set[Path]:
+    """The page's own modules that one names, types included."""
+    names = re.findall(r"from \"(\.[^\"]+)\"", module.read_text(encoding="utf-8"))
+    homes = [(module.parent / name).resolve() for name in names]
+    files = [(home.with_name(home.name + end), home / f"index{end}") for home in homes for end in (".ts", ".tsx")]
+    return {file for pair in files for file in pair if file.is_file()}
+
+
+def test_no_module_of_the_page_imports_itself_by_way_of_others() -> None:
+    graph = TopologicalSorter({module: imports(module) for module in MODULES})
+    graph.prepare()  # raises CycleError, which names the circle
+    assert any(len(imports(module)) > 5 for module in MODULES)
+
+
+def test_modules_of_the_page_are_short_and_no_folder_is_crowded() -> None:
+    assert {path.name for path in MODULES if len(path.read_text(encoding="utf-8").splitlines()) > 300} == set()
+    assert max(Counter(path.parent for path in MODULES).values()) <= 12

@@ -1,7 +1,15 @@
 /** What the journeys of the tests and the benchmark ask of the stage: nothing else reads it. */
 
 import { Vector3 } from "three";
-import type { Side, Stage } from "./stage";
+
+type Side = "reference" | "replica";
+
+/** What is asked of a stage. */
+interface Observed {
+  readonly canvas: HTMLCanvasElement;
+  readonly objects: Record<"geometries" | "textures" | "programs", number>;
+  project(point: Vector3, side: Side): { x: number; y: number } | null;
+}
 
 declare global {
   interface Window {
@@ -16,14 +24,14 @@ declare global {
   }
 }
 
-const alive = new Set<Stage>();
+const alive = new Set<Observed>();
 let replicas = 0;
 
-export function born(stage: Stage): void {
+export function began(stage: Observed): void {
   alive.add(stage);
 }
 
-export function gone(stage: Stage): void {
+export function ended(stage: Observed): void {
   alive.delete(stage);
 }
 

@@ -14,7 +14,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { born, gone } from "./diagnostics";
+import { began, ended } from "./diagnostics";
 import { Surface } from "./surface";
 
 export type Side = "reference" | "replica";
@@ -61,7 +61,7 @@ export class Stage {
     const context = this.canvas.getContext("webgl2", { antialias: true, alpha: true });
     if (!context) throw new Error("This browser has no WebGL.");
     this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
-    born(this);
+    began(this);
     this.renderer.autoClear = false;
     container.append(this.canvas);
     for (const side of SIDES) {
@@ -184,7 +184,7 @@ export class Stage {
     this.renderer.dispose();
     this.renderer.forceContextLoss();
     this.canvas.remove();
-    gone(this);
+    ended(this);
   }
 
   set controllable(on: boolean) {
