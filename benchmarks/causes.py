@@ -29,7 +29,7 @@ from shapewright.feedback.causes.replicas import measured, nearest_replicas
 from shapewright.feedback.explanation import explain
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import Solid, box, cylinder, sphere
-from shapewright.parameters import Parameters
+from shapewright.parameters import Parameters, Prediction
 from shapewright.runs.result import Result
 from shapewright.search.budgets import QUICK
 
@@ -173,12 +173,7 @@ def made(
             for replica, (row, values) in zip(measured(asked, crew, judge), asked, strict=True)
         ]
         if not case.spoil:
-            encoded = np.array([space.encode(values) for values in start], dtype=np.float32)
-            inferred = [
-                np.full((len(rows), p.classes), 1.0 / p.classes, np.float32) if p.classes else encoded[:, i]
-                for i, p in enumerate(space)
-            ]
-            known = nearest_replicas(known, inferred, crew, judge, QUICK)
+            known = nearest_replicas(known, Prediction.of(space, start, doubt=1.0), crew, judge, QUICK)
     results = tuple(
         Result(
             name=reference.name,

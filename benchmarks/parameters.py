@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import shapewright as sw
+from shapewright.parameters import Prediction
 from shapewright.prediction.inference import score
 
 TABLES = Path(__file__).resolve().parents[1] / "examples" / "tables"
@@ -30,8 +31,8 @@ def known(path: Path, space: sw.ParameterSpace) -> tuple[list[sw.Mesh], list[dic
     return list(unique.values()), [dict(zip(space.names, vector, strict=True)) for vector in unique]
 
 
-def print_errors(title: str, space: sw.ParameterSpace, answers: list, targets: np.ndarray) -> None:
-    metrics = score(space, answers, targets, np.ones(targets.shape, dtype=bool))
+def print_errors(title: str, prediction: Prediction, targets: np.ndarray) -> None:
+    metrics = score(prediction, targets, np.ones(targets.shape, dtype=bool))
     errors = [m["mae"] for m in metrics.values() if "mae" in m]
     cells = "  ".join(f"{name} {m.get('mae', m.get('f1')):.4f}" for name, m in metrics.items())
     print(f"    {title:9} mean scalar error {np.mean(errors):.4f}  |  {cells}", flush=True)
@@ -51,15 +52,11 @@ def main() -> None:
         iteration = sw.fit(procedure, references, sw.Settings(seed=arguments.seed))
         seconds = time.perf_counter() - started
         targets = np.array([space.encode(vector) for vector in truth], dtype=np.float32)
-        found = np.array([space.encode(iteration[name].parameters) for name in references.names], dtype=np.float32)
-        refined = [
-            np.eye(p.classes, dtype=np.float32)[column.astype(int)] if p.classes else column
-            for p, column in zip(space, found.T, strict=True)
-        ]
+        refined = Prediction.of(space, [iteration[name].parameters for name in references.names])
         stages = ", ".join(f"{name} {iteration.seconds[name]:.0f}" for name in ("train", "refine"))
         print(f"{version}  {len(meshes)} shapes, {len(iteration.compatible)} compatible, {seconds:.0f} s ({stages})")
-        print_errors("network", space, iteration.predictor.infer(meshes), targets)
-        print_errors("refined", space, refined, targets)
+        print_errors("network", iteration.predictor.infer(meshes), targets)
+        print_errors("refined", refined, targets)
 
 
 if __name__ == "__main__":

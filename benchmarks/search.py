@@ -112,8 +112,8 @@ def main() -> None:
     with Workers(procedure) as crew:
         row("differential evolution, the same seconds", judge.distances(crew.build(found)), took)
         started = time.perf_counter()
-        inferred, counted = predictor.infer(shapes), [0]
-        residuals = judge.measure(range(len(shapes)), judge.nearest(crew.build(predictor.decode(inferred)))[1])
+        prediction, counted = predictor.infer(shapes), [0]
+        residuals = judge.measure(range(len(shapes)), judge.nearest(crew.build(prediction.decode()))[1])
 
         def measure(pairs):
             counted[0] += len(pairs)
@@ -121,7 +121,7 @@ def main() -> None:
 
         for title, budget in (("quick", QUICK), ("long", LONG)):
             counted[0] = 0
-            vectors = refine(procedure.space, inferred, crew, measure, budget, arguments.seed, goal=judge.goal)
+            vectors = refine(prediction, crew, measure, budget, arguments.seed, goal=judge.goal)
             vectors = [values or procedure.space.defaults for values in vectors]
             took = time.perf_counter() - started
             each = counted[0] / len(shapes)

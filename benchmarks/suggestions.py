@@ -37,7 +37,7 @@ from shapewright.feedback.surfaces.placement import Overlay, place
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible import Surface
 from shapewright.judging.judge import Judge
-from shapewright.parameters import Parameters
+from shapewright.parameters import Parameters, Prediction
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 SAMPLED = 4000
@@ -145,7 +145,7 @@ def searched(
         replica or Replica(row, start, NOTHING, np.inf)
         for replica, (row, start) in zip(measured(asked, crew, judge), asked, strict=True)
     ]
-    best = nearest_replicas(known, doubtful(space, starts), crew, judge)
+    best = nearest_replicas(known, Prediction.of(space, starts, doubt=0.4), crew, judge)
     return [(b, replica) for b, replica in zip(builds, best, strict=True) if replica.distance > settings.threshold]
 
 
@@ -154,7 +154,8 @@ def explained(procedure: sw.Procedure, lost: list[tuple[Build, Replica]], crew: 
     references = judge.references.references
     known = [replace(replica, row=row) for row, (_, replica) in enumerate(lost)]
     overlays = [overlay(references[replica.row].shape, replica.mesh) for replica in known]
-    prediction = doubtful(procedure.space, [procedure.space.carry(build.parameters) for build, _ in lost])
+    space = procedure.space
+    prediction = Prediction.of(space, [space.carry(build.parameters) for build, _ in lost], doubt=0.4)
     covering = covering_replicas(known, overlays, prediction, crew, judge)
     return [lost_one(references[near.row], near, like) for near, like in zip(known, covering, strict=True)]
 
@@ -166,19 +167,6 @@ def gathered(builds: list[Build]) -> sw.Collection:
 def overlay(reference: sw.Mesh, replica: sw.Mesh) -> Overlay:
     theirs, ours = Surface.of(reference.normalised()), Surface.of(replica.normalised())
     return Overlay(theirs, [place(theirs, ours)[0]])
-
-
-def doubtful(space, starts) -> list[np.ndarray]:
-    """Parameters in the form of a prediction that is not sure of them."""
-    columns = []
-    for parameter in space:
-        values = np.array([parameter.encode(start[parameter.name]) for start in starts], dtype=np.float32)
-        if parameter.classes:
-            likely = np.full((len(starts), parameter.classes), 0.4 / parameter.classes, dtype=np.float32)
-            likely[np.arange(len(starts)), values.astype(int)] += 0.6
-            values = likely
-        columns.append(values)
-    return columns
 
 
 def lost_one(reference, nearest: Replica, covering: Replica) -> Case:

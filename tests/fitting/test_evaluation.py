@@ -8,7 +8,7 @@ import shapewright as sw
 from shapewright import Range
 from shapewright.fitting.evaluation import evaluate, variants
 from shapewright.modelling.solids import box
-from shapewright.parameters import ParameterSpace, Scalar
+from shapewright.parameters import ParameterSpace, Prediction, Scalar
 from shapewright.prediction.dataset import make_dataset
 from shapewright.prediction.heads import head_of
 from shapewright.prediction.inference import calibrate, infer, measure, outputs, score
@@ -36,11 +36,11 @@ def test_intervals_of_a_laplace_distribution_hold_their_share():
     truth = np.zeros((20_000, 1), dtype=np.float32)
     space, active = ParameterSpace((Scalar("s", 0, 1, 0),)), np.ones((20_000, 1), dtype=bool)
     predicted = rng.laplace(0.0, spread).astype(np.float32)
-    found = score(space, [predicted], truth, active, [spread])["s"]
+    found = score(Prediction(space, (predicted,), (spread,)), truth, active)["s"]
     assert found["within50"] == pytest.approx(0.5, abs=0.02) and found["within90"] == pytest.approx(0.9, abs=0.02)
-    narrow = score(space, [predicted], truth, active, [spread / 4])["s"]
+    narrow = score(Prediction(space, (predicted,), (spread / 4,)), truth, active)["s"]
     assert narrow["within50"] < 0.3 and narrow["within90"] < 0.6
-    assert "within50" not in score(space, [predicted], truth, active)["s"]
+    assert "within50" not in score(Prediction(space, (predicted,)), truth, active)["s"]
 
 
 def test_variants_are_all_combinations_of_what_is_compared():
@@ -66,10 +66,10 @@ def test_calibration_makes_the_mean_spread_right_and_leaves_values_alone():
     before = infer(network, SPACE, data.images)
     calibrate(network, SPACE, data)
     after = infer(network, SPACE, data.images)
-    errors = np.abs(after.values[0] - data.targets[:, 0])
+    errors = np.abs(after.columns[0] - data.targets[:, 0])
     assert np.mean(errors / before.spreads[0]) > 10
     assert np.mean(errors / after.spreads[0]) == pytest.approx(1.0, rel=1e-4)
-    assert after.spreads[1] is None and np.array_equal(before.values[0], after.values[0])
+    assert after.spreads[1] is None and np.array_equal(before.columns[0], after.columns[0])
     assert set(measure(network, SPACE, data)["s"]) == {"kind", "rows", "mae", "within50", "within90"}
     assert set(measure(network, SPACE, data)["c"]) == {"kind", "rows", "f1", "accuracy", "confidence"}
 

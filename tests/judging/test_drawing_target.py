@@ -15,6 +15,7 @@ from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.target import Measures
 from shapewright.modelling.drawing import box, circle
 from shapewright.modelling.solids import box as block
+from shapewright.parameters import Prediction
 from shapewright.rendering.ink import HALF
 from shapewright.search.drawing_budgets import DRAWN, DRAWN_THOROUGH
 from shapewright.search.search import refine
@@ -116,9 +117,9 @@ def test_a_search_finds_thin_legs_that_nothing_overlaps_at_first():
     ]
     references = sw.Collection.of({str(i): desk(**values) for i, values in enumerate(truth)})
     judge = Judge.of(references, sw.Settings(workers=1))
-    start = [np.array([0.5, 0.5]), np.array([0.5, 0.5]), np.array([0.5, 0.5]), np.full((2, 2), 0.5)]
+    start = Prediction(desk.space, (*[np.array([0.5, 0.5])] * 3, np.full((2, 2), 0.5)))
     with Workers(desk, 1) as crew:
-        found = crew.build(refine(desk.space, start, crew, judge.measure([0, 1]), DRAWN, seed=1, parts=judge.parts))
+        found = crew.build(refine(start, crew, judge.measure([0, 1]), DRAWN, seed=1, parts=judge.parts))
     assert [build.parameters["bar"] for build in found] == [True, False]
     assert (overlaps(judge, found)[0] > 0.93).all()
     assert DRAWN.evaluations(3) < 250 and DRAWN.within(30, 3).evaluations(3) <= 30

@@ -8,7 +8,7 @@ import shapewright as sw
 from shapewright import Range
 from shapewright.building import build_all
 from shapewright.modelling.solids import box, cylinder
-from shapewright.parameters import Binary, Choice, ParameterSpace, Scalar
+from shapewright.parameters import Binary, Choice, ParameterSpace, Prediction, Scalar
 from shapewright.prediction.dataset import make_dataset, shapes_of, split
 from shapewright.prediction.inference import infer, score
 from shapewright.prediction.network import CompactNetwork, loss
@@ -79,8 +79,8 @@ def test_each_parameter_has_a_head_of_its_own():
     space = ParameterSpace((Scalar("s", 0, 1, 0), Choice("c", ("a", "b", "d"), "a"), Binary("b", False)))
     network = CompactNetwork(space, views=2, size=32)
     assert [tuple(output.shape) for output in network(torch.rand(5, 2, 2, 32, 32))] == [(5, 2), (5, 3), (5, 2)]
-    inferred = infer(network, space, np.zeros((4, 2, 2, 32, 32), dtype=np.uint8)).values
-    assert inferred[0].shape == (4,) and inferred[1].sum(axis=1) == pytest.approx(np.ones(4), abs=1e-5)
+    columns = infer(network, space, np.zeros((4, 2, 2, 32, 32), dtype=np.uint8)).columns
+    assert columns[0].shape == (4,) and columns[1].sum(axis=1) == pytest.approx(np.ones(4), abs=1e-5)
 
 
 def test_scores_are_mae_f1_and_accuracy_where_the_parameter_matters():
@@ -88,7 +88,7 @@ def test_scores_are_mae_f1_and_accuracy_where_the_parameter_matters():
     predicted = [np.array([0.1, 0.5, 0.9]), np.array([[0.9, 0.1], [0.2, 0.8], [0.2, 0.8]]), np.zeros(3)]
     targets = np.array([[0.0, 0, 0], [0.5, 0, 0], [0.0, 1, 0]], dtype=np.float32)
     active = np.array([[1, 1, 0], [1, 1, 0], [0, 1, 0]], dtype=bool)
-    metrics = score(space, predicted, targets, active)
+    metrics = score(Prediction(space, tuple(predicted)), targets, active)
     assert metrics["s"] == {"kind": "scalar", "rows": 2, "mae": pytest.approx(0.05)}
     assert metrics["b"]["accuracy"] == pytest.approx(2 / 3) and metrics["b"]["f1"] == pytest.approx(2 / 3)
     assert metrics["never"]["rows"] == 0

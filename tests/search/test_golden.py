@@ -15,6 +15,7 @@ import shapely
 import shapewright as sw
 from shapewright import Infeasible, Range
 from shapewright.building import Workers
+from shapewright.parameters import Prediction
 from shapewright.rendering.ink import coverage
 from shapewright.search.budgets import QUICK, THOROUGH, Budget, Round
 from shapewright.search.drawing_budgets import DRAWN, DRAWN_THOROUGH
@@ -124,7 +125,7 @@ def guessed(space, truth, seed):
             columns.append((shares / shares.sum(axis=1, keepdims=True)).astype(np.float32))
         else:
             columns.append(np.clip(column + 0.12 * rng.standard_normal(len(truth)), 0.0, 1.0).astype(np.float32))
-    return columns
+    return Prediction(space, tuple(columns))
 
 
 CLOSER = Budget((Round(6), Round(2, rival=1.25), Round(2, 2, 4, rival=1.25), *(Round(1, 2, 5),) * 10), patience=2)
@@ -192,7 +193,7 @@ def found(name):
         return measure(pairs)
 
     with Workers(procedure, 1) as crew:
-        vectors = refine(procedure.space, guessed(procedure.space, truth, 7), crew, counting, seed=3, **asked)
+        vectors = refine(guessed(procedure.space, truth, 7), crew, counting, seed=3, **asked)
     return {"shapes": count[0], "parameters": [{n: repr(v) for n, v in vector.items()} for vector in vectors]}
 
 

@@ -9,8 +9,9 @@ from shapewright import Infeasible, Range
 from shapewright.building import Workers
 from shapewright.comparison.light_field.aligned import AlignedCost
 from shapewright.modelling.solids import box, cylinder
+from shapewright.parameters import Prediction
 from shapewright.search.budgets import QUICK, THOROUGH, Budget, Round
-from shapewright.search.combinations import likeliest, others
+from shapewright.search.combinations import others
 from shapewright.search.search import refine
 
 
@@ -29,10 +30,9 @@ def post(
     return shaft | (cylinder if form == "round" else box)((1, 0.1, 0.3 + cap), at=(0, height / 2, 0))
 
 
-def inferred(*rows):
+def predicted(*rows):
     """As a network would give: (height, width, probabilities of the forms, cap), encoded."""
-    heights, widths, forms, caps = zip(*rows, strict=True)
-    return [np.array(heights), np.array(widths), np.array(forms), np.array(caps)]
+    return Prediction(post.space, tuple(np.array(column) for column in zip(*rows, strict=True)))
 
 
 def measure_against(targets):
@@ -49,17 +49,17 @@ def test_refinement_finds_the_parameters_and_mends_a_wrong_choice():
         {"height": 0.5, "width": 0.6, "form": "round", "cap": 0.7},
     ]
     targets = [post(**values) for values in truth]
-    start = inferred((0.6, 0.3, SURE, 0.3), (0.25, 0.45, MISTAKEN, 0.6))
+    start = predicted((0.6, 0.3, SURE, 0.3), (0.25, 0.45, MISTAKEN, 0.6))
     measure = measure_against(targets)
     with Workers(post, 1) as crew:
-        quick = refine(post.space, start, crew, measure, QUICK, seed=3)
-        again = refine(post.space, start, crew, measure, QUICK, seed=3)
-        alone = refine(post.space, [column[:1] for column in start], crew, measure, QUICK, seed=3)
-        thorough = refine(post.space, start, crew, measure, THOROUGH, seed=3, enough=300.0)
+        quick = refine(start, crew, measure, QUICK, seed=3)
+        again = refine(start, crew, measure, QUICK, seed=3)
+        alone = refine(start.take([0]), crew, measure, QUICK, seed=3)
+        thorough = refine(start, crew, measure, THOROUGH, seed=3, enough=300.0)
     assert quick == again and quick[0] == alone[0]
     assert [found["form"] for found in quick] == ["square", "round"]
-    predicted = [post.space.decode(row) for row in ([0.6, 0.3, 0, 0.3], [0.25, 0.45, 0, 0.6])]
-    for target, found, better, before in zip(targets, quick, thorough, predicted, strict=True):
+    at_first = [post.space.decode(row) for row in ([0.6, 0.3, 0, 0.3], [0.25, 0.45, 0, 0.6])]
+    for target, found, better, before in zip(targets, quick, thorough, at_first, strict=True):
         cost = AlignedCost(target)
         assert cost(post(**found)) < 0.6 * cost(post(**before))
         assert cost(post(**better)) < 0.2 * cost(post(**before))
@@ -70,10 +70,10 @@ def test_refinement_stays_within_the_limits_of_each_reference():
         np.array([[0.6, 0.2, 0.0, 0.1], [0.0, 0.0, 0.0, 0.4]]),
         np.array([[0.7, 0.3, 2.0, 0.4], [0.3, 0.6, 2.0, 0.9]]),
     )
-    start = inferred((0.65, 0.3, SURE, 0.3), (0.25, 0.45, SURE, 0.6))
+    start = predicted((0.65, 0.3, SURE, 0.3), (0.25, 0.45, SURE, 0.6))
     measure = measure_against([post(height=0.3, width=0.9, cap=0.9), post(height=2.0, width=0.9, cap=0.0)])
     with Workers(post, 1) as crew:
-        found = refine(post.space, start, crew, measure, QUICK, within=limits)
+        found = refine(start, crew, measure, QUICK, within=limits)
     for values, low, high in zip(found, *limits, strict=True):
         encoded = post.space.encode(values)[:2]
         assert (encoded >= low[:2] - 1e-9).all() and (encoded <= high[:2] + 1e-9).all()
@@ -82,16 +82,11 @@ def test_refinement_stays_within_the_limits_of_each_reference():
 def test_refinement_never_makes_it_worse():
     targets = [box((1, 0.2 * i, 0.5)).mesh() for i in range(1, 6)]
     rng = np.random.default_rng(0)
-    start = inferred(*[(rng.random(), rng.random(), rng.dirichlet(np.ones(3)), rng.random()) for _ in targets])
+    start = predicted(*[(rng.random(), rng.random(), rng.dirichlet(np.ones(3)), rng.random()) for _ in targets])
     measure = measure_against(targets)
     with Workers(post, 1) as crew:
-        found = refine(post.space, start, crew, measure, QUICK.within(24, 3), seed=1)
-        builds = crew.build(
-            [
-                post.space.canonical(post.space.decode(likeliest(post.space, [c[i] for c in start], 1)[0]))
-                for i in range(5)
-            ]
-        )
+        found = refine(start, crew, measure, QUICK.within(24, 3), seed=1)
+        builds = crew.build([post.space.canonical(post.space.decode(start.likeliest(i, 1)[0])) for i in range(5)])
     for i, (build, values) in enumerate(zip(builds, found, strict=True)):
         if build.shape is not None:
             after, before = (np.abs(measure([(i, shape)])[0]).sum() for shape in (post(**values), build.shape))
@@ -100,48 +95,35 @@ def test_refinement_never_makes_it_worse():
 
 def test_of_forms_that_look_alike_the_likelier_is_chosen():
     likely = np.array([0.3, 0.7, 0.0])
-    start = inferred((0.5, 0.5, likely, 0.5), (0.5, 0.5, likely, 0.5))
+    start = predicted((0.5, 0.5, likely, 0.5), (0.5, 0.5, likely, 0.5))
 
     def measure(pairs):  # the unlikely form is a little better for the first reference, and clearly for the second
         return [np.array([100.0, (2.0, 50.0)[i] if len(mesh.faces) > 40 else 0.0]) for i, mesh in pairs]
 
     with Workers(post, 1) as crew:
-        careful = refine(post.space, start, crew, measure, QUICK, doubt=5.0)
-        careless = refine(post.space, start, crew, measure, QUICK)
+        careful = refine(start, crew, measure, QUICK, doubt=5.0)
+        careless = refine(start, crew, measure, QUICK)
     assert [found["form"] for found in careful] == ["round", "square"]
     assert [found["form"] for found in careless] == ["square", "square"]
 
 
 def test_other_choices_are_tried_and_the_best_one_comes_back():
     truth = [{"height": 1.2, "width": 0.4, "form": form, "cap": 0.6} for form in ("square", "round")]
-    start = inferred(*[(0.5, 0.3, [1.0, 0.0, 0.0], 0.6)] * 2)
+    start = predicted(*[(0.5, 0.3, [1.0, 0.0, 0.0], 0.6)] * 2)
     budget = Budget((Round(1), Round(1), Round(1, 3), Round(2, other="choice"), Round(2), Round(1, 3, back=True)))
     with Workers(post, 1) as crew:
-        found = refine(post.space, start, crew, measure_against([post(**values) for values in truth]), budget)
+        found = refine(start, crew, measure_against([post(**values) for values in truth]), budget)
         without = replace(budget, rounds=budget.rounds[:3])
-        before = refine(post.space, start, crew, measure_against([post(**values) for values in truth]), without)
+        before = refine(start, crew, measure_against([post(**values) for values in truth]), without)
     assert [values["form"] for values in found] == ["square", "round"]
     assert [values["form"] for values in before] == ["square", "square"]
 
 
 def test_where_nothing_can_be_built_the_prediction_stays():
-    start = inferred((0.5, 0.95, [0.0, 0.0, 1.0], 0.5))
+    start = predicted((0.5, 0.95, [0.0, 0.0, 1.0], 0.5))
     with Workers(post, 1) as crew:
-        (found,) = refine(post.space, start, crew, lambda pairs: [None] * len(pairs), QUICK.within(1, 3))
+        (found,) = refine(start, crew, lambda pairs: [None] * len(pairs), QUICK.within(1, 3))
     assert found["form"] == "bare" and found["width"] == pytest.approx(0.955) and found["cap"] == 0.5
-
-
-def test_the_likeliest_vectors_come_in_order_and_mean_different_shapes():
-    vectors = likeliest(post.space, [np.float32(0.5), np.float32(0.2), np.array([0.2, 0.5, 0.3]), np.float32(0.9)], 5)
-    assert [vector[2] for vector in vectors] == [1, 2, 0]
-    space = sw.ParameterSpace(
-        (sw.Binary("a", False), sw.Choice("b", ("x", "y", "z"), "x", when=lambda p: p.a), sw.Binary("c", True))
-    )
-    vectors = likeliest(space, [np.array([0.9, 0.1]), np.array([0.1, 0.2, 0.7]), np.array([0.4, 0.6])], 10)
-    assert len(vectors) == 2 + 2 * 3
-    assert vectors[0].tolist()[0] == 0 and vectors[0].tolist()[2] == 1
-    sure = likeliest(space, [np.array([1.0, 0.0]), np.array([0.1, 0.2, 0.7]), np.array([0.4, 0.6])], 10)
-    assert [vector.tolist()[2] for vector in sure] == [1, 0] and not any(vector[0] for vector in sure)
 
 
 def test_others_are_a_single_choice_away_or_the_likeliest_each_once():
@@ -151,10 +133,11 @@ def test_others_are_a_single_choice_away_or_the_likeliest_each_once():
     centre = np.array([0.25, 0.0, 0.0])
     away = others(space, centre)
     assert [tuple(v) for v in away] == [(0.25, 1, 0), (0.25, 2, 0), (0.25, 0, 1), (0.25, 0, 2)]
-    inferred = [np.float32(0.9), np.array([0.1, 0.3, 0.6]), np.array([0.1, 0.2, 0.7])]
-    known = [tuple(v) for v in others(space, centre, inferred)]
+    columns = (np.array([0.9]), np.array([[0.1, 0.3, 0.6]]), np.array([[0.1, 0.2, 0.7]]))
+    likely = Prediction(space, columns).likeliest(0, 4)
+    known = [tuple(v) for v in others(space, centre, likely)]
     assert known == [*(tuple(v) for v in away), (0.25, 2, 2), (0.25, 1, 2), (0.25, 2, 1)]
-    assert [tuple(v) for v in others(space, np.array([0.25, 0.0, 1.0]), inferred)][4:] == [(0.25, 2, 2), (0.25, 1, 2)]
+    assert [tuple(v) for v in others(space, np.array([0.25, 0.0, 1.0]), likely)][4:] == [(0.25, 2, 2), (0.25, 1, 2)]
 
 
 def test_budgets_are_cut_to_what_there_is_time_for():
@@ -165,7 +148,7 @@ def test_budgets_are_cut_to_what_there_is_time_for():
 
 def test_variants_find_a_choice_that_the_prediction_excludes_and_plain_starts_what_it_missed():
     target = post(height=1.4, width=0.3, form="round", cap=0.5)
-    start = inferred((0.65, 0.2, SURE, 0.5))
+    start = predicted((0.65, 0.2, SURE, 0.5))
     built = []
 
     def measure(pairs):
@@ -174,15 +157,15 @@ def test_variants_find_a_choice_that_the_prediction_excludes_and_plain_starts_wh
 
     rounds = (Round(1), Round(1), Round(1, 2))
     further = (*rounds, Round(3, other="choice"), Round(2, probe=0.01), Round(2, 2))
-    far = inferred((0.0, 1.0, SURE, 0.0))
+    far = predicted((0.0, 1.0, SURE, 0.0))
     with Workers(post, 1) as crew:
-        (as_predicted,) = refine(post.space, start, crew, measure, Budget(rounds))
+        (as_predicted,) = refine(start, crew, measure, Budget(rounds))
         assert len(built) == Budget(rounds).evaluations(3) == 6
-        (varied,) = refine(post.space, start, crew, measure, Budget(further))
+        (varied,) = refine(start, crew, measure, Budget(further))
         assert Budget(further).evaluations(3) == 6 + 3 + 6 + 4
-        (plain,) = refine(post.space, far, crew, measure, Budget((Round(2),), simple=1))
+        (plain,) = refine(far, crew, measure, Budget((Round(2),), simple=1))
         again = Budget((Round(1), Round(3, other="plain")))
-        (restarted,) = refine(post.space, far, crew, measure_against([post(form="round")]), again)
+        (restarted,) = refine(far, crew, measure_against([post(form="round")]), again)
     assert as_predicted["form"] == "square" and varied["form"] == "round"
     assert plain == {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.5}
     assert restarted == {**plain, "form": "round"}
@@ -199,11 +182,11 @@ def test_the_best_rests_while_others_are_tried_by_a_coarser_part():
 
     tried: set[int] = set()
     fine, coarse = slice(0, 2), slice(2, 3)
-    start = inferred((0.5, 0.2, SURE, 0.5))
+    start = predicted((0.5, 0.2, SURE, 0.5))
     first = (*(Round(1, part=1),) * 4, Round(3, other="choice"), Round(3), Round(3))
     with Workers(post, 1) as crew:
         found = [
-            refine(post.space, start, crew, measure, Budget(rounds), parts=(coarse, fine))[0]
+            refine(start, crew, measure, Budget(rounds), parts=(coarse, fine))[0]
             for rounds in (first[:4], first, (*first, Round(1, part=1)))
         ]
     assert [values["form"] for values in found] == ["square"] * 3  # where the rounds end before the last part as well
@@ -212,7 +195,7 @@ def test_the_best_rests_while_others_are_tried_by_a_coarser_part():
 
 
 def test_only_what_is_nearly_compatible_is_explored_further():
-    start = inferred((0.5, 0.5, SURE, 0.5), (0.5, 0.5, SURE, 0.5))
+    start = predicted((0.5, 0.5, SURE, 0.5), (0.5, 0.5, SURE, 0.5))
     target = post(height=1.0, width=0.5, cap=0.9)
     measured = []
 
@@ -222,7 +205,7 @@ def test_only_what_is_nearly_compatible_is_explored_further():
 
     budget = Budget((Round(1), Round(1), Round(1, 1), Round(1, 1, 5, near=4.0)))
     with Workers(post, 1) as crew:
-        refine(post.space, start, crew, measure, budget, goal=400.0)
+        refine(start, crew, measure, budget, goal=400.0)
     assert measured.count(0) in (5, 11) and measured.count(1) == 5
     costs = [np.abs(measure_against([target])([(0, post(**post.space.decode([0.5, 0.5, 0, 0.5])))])[0]).sum()]
     assert costs[0] > 400.0
@@ -231,7 +214,7 @@ def test_only_what_is_nearly_compatible_is_explored_further():
 def test_where_an_earlier_search_ended_at_the_best_nothing_more_is_spent():
     target = post(height=1.0, width=0.5, cap=0.9)
     known = [{"height": 1.0, "width": 0.5, "form": "square", "cap": 0.88}]
-    start = inferred((0.2, 0.9, SURE, 0.1))
+    start = predicted((0.2, 0.9, SURE, 0.1))
     counts = []
     with Workers(post, 1) as crew:
         for new in (None, set(), {"height"}, {"never"}):
@@ -241,7 +224,7 @@ def test_where_an_earlier_search_ended_at_the_best_nothing_more_is_spent():
                 measured.extend(pairs)
                 return measure_against([target])(pairs)
 
-            (found,) = refine(post.space, start, crew, measure, QUICK, known=known, new=new)
+            (found,) = refine(start, crew, measure, QUICK, known=known, new=new)
             counts.append(len(measured))
             assert found["height"] == pytest.approx(1.0, abs=0.05)
     assert counts[0] == counts[2] > counts[1] == counts[3] == 3
@@ -250,7 +233,7 @@ def test_where_an_earlier_search_ended_at_the_best_nothing_more_is_spent():
 def test_a_search_that_is_cut_short_keeps_the_best_that_rested():
     budget = Budget((Round(2), Round(1), Round(1, 2), Round(2, other="choice"), Round(2), Round(2, 2, part=1)))
     cost = AlignedCost(post(height=1.4, width=0.3, form="square", cap=0.5))
-    start = inferred((0.65, 0.25, SURE, 0.5))
+    start = predicted((0.65, 0.25, SURE, 0.5))
     parts = (slice(0, 470), slice(470, 940))
 
     def measure(pairs):
@@ -258,7 +241,7 @@ def test_a_search_that_is_cut_short_keeps_the_best_that_rested():
 
     with Workers(post, 1) as crew:
         cuts = [budget.within(evaluations, 3) for evaluations in (5, 7, 9, 15, 100)]
-        found = [refine(post.space, start, crew, measure, cut, parts=parts)[0] for cut in cuts]
+        found = [refine(start, crew, measure, cut, parts=parts)[0] for cut in cuts]
     assert [len(cut.rounds) for cut in cuts] == [2, 3, 4, 5, 6]
     assert [values["form"] for values in found] == ["square"] * 5
 
@@ -272,25 +255,25 @@ def counted(start, target, budget, known=None):
         return measure_against([target])(pairs)
 
     with Workers(post, 1) as crew:
-        (found,) = refine(post.space, start, crew, measure, budget, known=known)
+        (found,) = refine(start, crew, measure, budget, known=known)
     return len(measured), found
 
 
 def test_a_search_ends_where_nothing_moves():
     truth = {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.9}
-    there = [np.array([value]) for value in post.space.encode(truth)]
-    there[2] = np.array([SURE])
+    height, width, _, cap = post.space.encode(truth)
+    there = predicted((height, width, SURE, cap))
     rounds = (Round(1), Round(1), *(Round(1, 1, 2),) * 6)
     spent = [counted(there, post(**truth), Budget(rounds, patience=patience))[0] for patience in (1, 2, None)]
     assert spent == [1 + 3 + 3, 1 + 3 + 3 * 2, 1 + 3 + 3 * 6]
-    away = inferred((0.1, 0.9, SURE, 0.1))
+    away = predicted((0.1, 0.9, SURE, 0.1))
     few, found = counted(away, post(**truth), Budget(rounds, patience=1))
     assert few > spent[0] and found["height"] > 0.6
 
 
 def test_only_rivals_of_the_best_combination_take_part():
     target = post(height=1.0, width=0.5, form="bare")
-    start = inferred((0.44, 0.44, [0.4, 0.3, 0.3], 0.9))
+    start = predicted((0.44, 0.44, [0.4, 0.3, 0.3], 0.9))
     rounds = [(Round(3), Round(3, rival=rival)) for rival in (np.inf, 1.5)]
     everyone, rivals = (counted(start, target, Budget(each))[0] for each in rounds)
     assert everyone == 3 + 3 + 3 + 2 and rivals == 3 + 2
@@ -298,6 +281,6 @@ def test_only_rivals_of_the_best_combination_take_part():
 
 def test_a_start_that_is_predicted_as_well_is_tried_once():
     known = {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.5}
-    start = [np.array([value], dtype=np.float32) for value in post.space.encode(known)]
-    start[2] = np.array([SURE])
+    height, width, _, cap = post.space.encode(known).astype(np.float32)
+    start = predicted((height, width, SURE, cap))
     assert counted(start, post(), Budget((Round(1),)), [known])[0] == 1

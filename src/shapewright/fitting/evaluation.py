@@ -11,6 +11,7 @@ import numpy as np
 from shapewright.building import Workers
 from shapewright.fitting.learning import Lesson, learn, limits_of
 from shapewright.judging.judge import Judge
+from shapewright.parameters import Prediction
 from shapewright.prediction.inference import Metrics, score
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
@@ -93,12 +94,11 @@ def _refined(
     held_out = lesson.held_out.take(np.arange(min(count, len(lesson.held_out))))
     shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
     judge = Judge.of(shapes, settings)
-    inferred = lesson.predictor.infer(held_out.shapes)
-    _, fields = judge.nearest(crew.build(lesson.predictor.decode(inferred)))
+    prediction = lesson.predictor.infer(held_out.shapes)
+    _, fields = judge.nearest(crew.build(prediction.decode()))
     stages.begin("refine", 1)
     found = refine(
-        procedure.space,
-        inferred,
+        prediction,
         crew,
         judge.measure(range(len(fields)), fields),
         lesson.budget(settings),
@@ -109,9 +109,4 @@ def _refined(
         parts=judge.parts,
         doubt=judge.surprise_cost,
     )
-    encoded = np.array([procedure.space.encode(values) for values in found], dtype=np.float32)
-    answers = [
-        np.eye(parameter.classes, dtype=np.float32)[encoded[:, i].astype(int)] if parameter.classes else encoded[:, i]
-        for i, parameter in enumerate(procedure.space)
-    ]
-    return score(procedure.space, answers, held_out.targets, held_out.active)
+    return score(Prediction.of(procedure.space, found), held_out.targets, held_out.active)

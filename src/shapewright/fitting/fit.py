@@ -179,8 +179,8 @@ def _replicate(
 ) -> _Found:
     """Try what is predicted for each reference, and search on from there; new: see ``refine``."""
     stages.begin("predict", len(found.builds))
-    inferred = lesson.predictor.infer([reference.shape for reference in judge.references])
-    predicted = lesson.predictor.decode(inferred)
+    prediction = lesson.predictor.infer([reference.shape for reference in judge.references])
+    predicted = prediction.decode()
     stages.begin("replicate", 1)
     # Of what was found before only that is searched on which is not near yet.
     known = [build.parameters if build else None for build in found.builds]
@@ -191,8 +191,7 @@ def _replicate(
         return found
     stages.begin("refine", 1)
     refined = refine(
-        procedure.space,
-        [column[rows] for column in inferred],
+        prediction.take(rows),
         crew,
         judge.measure(rows, found.fields[rows]),
         lesson.budget(settings),

@@ -1,4 +1,4 @@
-"""Parameters: four kinds, the ordered space of them, and their form in files."""
+"""Parameters: four kinds, the ordered space of them, what is likely of them, and their form in files."""
 
 from shapewright.parameters.kinds import (
     Binary,
@@ -13,6 +13,7 @@ from shapewright.parameters.kinds import (
     Value,
     When,
 )
+from shapewright.parameters.prediction import Prediction
 from shapewright.parameters.record import from_record, to_record
 from shapewright.parameters.space import End, Excess, ParameterSpace
 
@@ -26,6 +27,7 @@ __all__ = [
     "Parameter",
     "ParameterSpace",
     "Parameters",
+    "Prediction",
     "Range",
     "Scalar",
     "Side",

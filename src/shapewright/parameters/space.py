@@ -124,6 +124,13 @@ class ParameterSpace:
         """The inverse of ``encode``; values outside the space are moved to its nearest end."""
         return {p.name: p.decode(float(e)) for p, e in zip(self.parameters, encoded, strict=True)}
 
+    def distinct(self, vectors: Sequence[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
+        """The encoded vectors (P,) without those that mean the same as one before, see ``canonical``."""
+        unique: dict[tuple[Value, ...], NDArray[np.float64]] = {}
+        for vector in vectors:
+            unique.setdefault(tuple(self.canonical(self.decode(vector)).values()), vector)
+        return list(unique.values())
+
     def at_limit(self, values: Mapping[str, Value]) -> tuple[str, ...]:
         """Names of the active scalars near an end of their Range, for the author: perhaps the Range ends too soon.
 

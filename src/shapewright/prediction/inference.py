@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -13,7 +11,7 @@ from numpy.typing import NDArray
 from sklearn.metrics import f1_score
 from torch import Tensor, nn
 
-from shapewright.parameters import ParameterSpace
+from shapewright.parameters import ParameterSpace, Prediction
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.heads import ScalarHead, head_of
 
@@ -21,19 +19,6 @@ Floats = NDArray[np.float32]
 Metrics: TypeAlias = dict[str, dict[str, Any]]
 
 _PIXELS = 2**22
-
-
-@dataclass(frozen=True, eq=False)
-class Inference:
-    """What the network says about N shapes, per parameter.
-
-    values: (N,) encoded values of a scalar, or (N, classes) probabilities. spreads: (N,) for a scalar, the scale b of
-    the Laplace distribution of its error, so that half of the true values lie within b ln 2 of the predicted ones and
-    nine in ten within b ln 10; None for the other kinds, whose probabilities say how sure they are.
-    """
-
-    values: list[Floats]
-    spreads: list[Floats | None]
 
 
 def outputs(network: nn.Module, images: NDArray[np.uint8]) -> list[Tensor]:
@@ -49,18 +34,18 @@ def outputs(network: nn.Module, images: NDArray[np.uint8]) -> list[Tensor]:
     return [torch.cat(column) for column in zip(*answers, strict=True)]
 
 
-def infer(network: nn.Module, space: ParameterSpace, images: NDArray[np.uint8]) -> Inference:
-    """Values and spreads for images (N, C, 2, S, S), at least one."""
-    values: list[Floats] = []
+def infer(network: nn.Module, space: ParameterSpace, images: NDArray[np.uint8]) -> Prediction:
+    """What is likely for images (N, C, 2, S, S), at least one."""
+    columns: list[Floats] = []
     spreads: list[Floats | None] = []
     for parameter, output in zip(space, outputs(network, images), strict=True):
         if parameter.classes:
-            values.append(output.softmax(dim=1).numpy())
+            columns.append(output.softmax(dim=1).numpy())
             spreads.append(None)
         else:
-            values.append(output[:, 0].clamp(0.0, 1.0).numpy())
+            columns.append(output[:, 0].clamp(0.0, 1.0).numpy())
             spreads.append(output[:, 1].exp().numpy())
-    return Inference(values, spreads)
+    return Prediction(space, tuple(columns), tuple(spreads))
 
 
 def calibrate(network: nn.Module, space: ParameterSpace, validation: Dataset) -> None:
@@ -70,29 +55,22 @@ def calibrate(network: nn.Module, space: ParameterSpace, validation: Dataset) ->
     """
     if not len(validation):
         return
-    inference = infer(network, space, validation.images)
-    for column, (parameter, spread) in enumerate(zip(space, inference.spreads, strict=True)):
+    prediction = infer(network, space, validation.images)
+    for column, (parameter, spread) in enumerate(zip(space, prediction.spreads, strict=True)):
         head, rows = head_of(network, parameter.name), validation.active[:, column]
         if not isinstance(head, ScalarHead) or spread is None:
             continue
-        errors = np.abs(inference.values[column] - validation.targets[:, column])[rows]
+        errors = np.abs(prediction.columns[column] - validation.targets[:, column])[rows]
         if errors.any():
             head.scale_spread(float(np.mean(errors / spread[rows])))
 
 
 def measure(network: nn.Module, space: ParameterSpace, held_out: Dataset) -> Metrics:
     """The ``score`` of the network on these rows."""
-    inference = infer(network, space, held_out.images)
-    return score(space, inference.values, held_out.targets, held_out.active, inference.spreads)
+    return score(infer(network, space, held_out.images), held_out.targets, held_out.active)
 
 
-def score(
-    space: ParameterSpace,
-    predicted: Sequence[Floats],
-    targets: Floats,
-    active: NDArray[np.bool_],
-    spreads: Sequence[Floats | None] | None = None,
-) -> Metrics:
+def score(prediction: Prediction, targets: Floats, active: NDArray[np.bool_]) -> Metrics:
     """Per parameter over the rows where it matters, targets and active (N, P).
 
     Of a scalar: "mae", normalised to [0, 1], and with spreads "within50" and "within90", the shares of true values
@@ -100,9 +78,10 @@ def score(
     (paper section 5.1), "accuracy", and "confidence", the mean probability of the class predicted, which is the
     accuracy to expect.
     """
-    spreads = spreads or [None] * len(predicted)
+    columns = prediction.columns
+    spreads = prediction.spreads or [None] * len(columns)
     metrics: Metrics = {}
-    for column, (parameter, values, spread) in enumerate(zip(space, predicted, spreads, strict=True)):
+    for column, (parameter, values, spread) in enumerate(zip(prediction.space, columns, spreads, strict=True)):
         rows = active[:, column]
         truth = targets[rows, column]
         metrics[parameter.name] = {"kind": type(parameter).__name__.lower(), "rows": int(rows.sum())}

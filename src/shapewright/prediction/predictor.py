@@ -7,14 +7,12 @@ from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 from pathlib import Path
 
-import numpy as np
 import torch
-from numpy.typing import NDArray
 from torch import nn
 
-from shapewright.parameters import Parameters, ParameterSpace, from_record, to_record
+from shapewright.parameters import Parameters, ParameterSpace, Prediction, from_record, to_record
 from shapewright.prediction.devices import torch_threads
-from shapewright.prediction.inference import Inference, Metrics, infer
+from shapewright.prediction.inference import Metrics, infer
 from shapewright.prediction.network import CompactNetwork, make_network
 from shapewright.prediction.training import Epoch
 from shapewright.rendering.cameras import PAGE, Camera
@@ -67,14 +65,10 @@ class Predictor:
 
     def predict(self, shapes: Sequence[Shape]) -> list[Parameters]:
         """The parameters for each shape, which need not be normalised."""
-        return self.decode(self.infer(shapes))
+        return self.infer(shapes).decode()
 
-    def infer(self, shapes: Sequence[Shape]) -> list[NDArray[np.float32]]:
-        """For each parameter (N,) encoded values of a scalar, or (N, classes) probabilities."""
-        return self.infer_with_spread(shapes).values
-
-    def infer_with_spread(self, shapes: Sequence[Shape]) -> Inference:
-        """What ``infer`` gives, and how far off each scalar may be.
+    def infer(self, shapes: Sequence[Shape]) -> Prediction:
+        """What is likely for each shape, and how far off each scalar may be.
 
         Raises ValueError for meshes where it has learned from drawings, and the other way round.
         """
@@ -84,8 +78,3 @@ class Predictor:
         images = render([shape.normalised() for shape in shapes], self.cameras, self.size, threads=self.threads)
         with torch_threads(self.threads):
             return infer(self.network, self.space, images)
-
-    def decode(self, inferred: Sequence[NDArray[np.float32]]) -> list[Parameters]:
-        """Encoded scalars and the likeliest classes as parameter vectors, inactive parameters at their defaults."""
-        columns = [values.argmax(axis=1) if values.ndim == 2 else values for values in inferred]
-        return [self.space.canonical(self.space.decode(row)) for row in zip(*columns, strict=True)]

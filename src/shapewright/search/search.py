@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
-from shapewright.parameters import Parameters, ParameterSpace, Scalar
+from shapewright.parameters import Parameters, ParameterSpace, Prediction, Scalar
 from shapewright.search.budgets import QUICK, Budget, Round
-from shapewright.search.combinations import likeliest, others, plain, surprise
+from shapewright.search.combinations import others, plain
 from shapewright.search.descent import bounded_step, learn_slope
 from shapewright.search.objective import Measure
 
@@ -30,6 +30,8 @@ _MOVED = 0.98
 """Share of its cost that a search must have left after a round that brought something."""
 _SAME = 1e-6
 """Between encoded starts that are one: predictions are of single precision."""
+_LIKELIEST = 4
+"""Combinations that are tried again because they are the likeliest."""
 _LOCAL = 0.1
 """How far a point may lie from the best one for the linear model to learn from it."""
 
@@ -104,8 +106,7 @@ class _Trial:
 
 
 def refine(
-    space: ParameterSpace,
-    inferred: Sequence[NDArray[np.float32]],
+    prediction: Prediction,
     crew: Workers,
     measure: Measure,
     budget: Budget = QUICK,
@@ -122,31 +123,27 @@ def refine(
 ) -> list[Parameters]:
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
-    inferred: for each parameter (N,) encoded scalars or (N, classes) probabilities, as ``Predictor.infer`` gives.
     known: for each reference parameters to start from as well. new: names of scalars that are new or other than when
     the known ones were searched for; with it, no more is spent where these turn out the best and none is new. goal: the
     cost up to which a reference counts as compatible; without it no round is spent on those that are near. within: the
     least and the greatest encoded scalars of each reference, (N, P), the whole space by default. spread: of the first
     random points, encoded. parts: of the residuals, coarse to fine, that rounds may go by; a round that asks for a
     further one goes by the last. enough: a cost, by the last part, at which the search for a reference ends. doubt: how
-    much the cost of a choice rises with minus the logarithm of the probability inferred for it: of those that look
+    much the cost of a choice rises with minus the logarithm of the probability predicted for it: of those that look
     alike the likelier wins. The cost never rises above that of the prediction, where there is one part. A reference's
     result does not depend on the other references.
     """
-    count = len(inferred[0])
+    space, count = prediction.space, len(prediction)
     widest = budget.rounds[0].combinations
     low, high = within or (np.zeros((count, len(space))), np.ones((count, len(space))))
     searches = []
 
-    def told(i: int) -> list[NDArray[np.float32]]:
-        return [column[i] for column in inferred]
-
     def arm(i: int, centre: Floats, known: bool = False) -> _Arm:
-        unlikely = doubt and doubt * surprise(space, told(i), centre)
+        unlikely = doubt and doubt * prediction.surprise(i, centre)
         return _Arm(centre, unlikely, known, spread=spread)
 
     for i in range(count):
-        centres = likeliest(space, told(i), widest - budget.simple)
+        centres = prediction.likeliest(i, widest - budget.simple)
         centres += [space.encode(space.defaults), *others(space, space.encode(space.defaults))][: budget.simple]
         arms = [arm(i, centre) for centre in centres]
         if known and (given := known[i]) is not None:
@@ -168,7 +165,8 @@ def refine(
             if part != before or turn.back:
                 search.focus(space, part, turn.combinations, turn.back or part == parts[-1])
             if turn.other and best.residual is not None:
-                starts = others(space, best.centre, told(i) if turn.other == "likely" else None)
+                likely = prediction.likeliest(i, _LIKELIEST) if turn.other == "likely" else ()
+                starts = others(space, best.centre, likely)
                 if turn.other == "plain":
                     starts = [plain(space, start) for start in (best.centre, *starts)]
                 search.leave(best, [arm(i, start) for start in starts])

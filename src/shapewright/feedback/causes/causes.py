@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from shapewright.building import Workers
 from shapewright.feedback.case import Case, Replica, updated
 from shapewright.feedback.causes.diagnosis import diagnosed, or_leaning
@@ -14,7 +12,6 @@ from shapewright.feedback.causes.leaning import leaning
 from shapewright.feedback.causes.longer_ranges import replicas_outside
 from shapewright.feedback.causes.outliers import isolation, outliers
 from shapewright.feedback.causes.replicas import (
-    Prediction,
     covering_replicas,
     nearest_replicas,
     with_choices_kept,
@@ -26,7 +23,7 @@ from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible import Surface
 from shapewright.judging.judge import Judge
 from shapewright.judging.mesh_target import MeshTarget
-from shapewright.parameters import ParameterSpace
+from shapewright.parameters import ParameterSpace, Prediction
 from shapewright.prediction.predictor import Predictor
 from shapewright.progress import Stages
 from shapewright.threads import in_threads
@@ -67,9 +64,7 @@ def _searched(
     stages.step(1, 4)
     unsolved = [i for i, case in enumerate(misfits) if case.nearest.distance > threshold]
     some = [misfits[i] for i in unsolved]
-    nearest = nearest_replicas(
-        [case.nearest for case in some], [column[unsolved] for column in prediction], crew, judge
-    )
+    nearest = nearest_replicas([case.nearest for case in some], prediction.take(unsolved), crew, judge)
     misfits = updated(misfits, [replace(case, nearest=new) for case, new in zip(some, nearest, strict=True)])
     nearest = with_choices_kept(misfits, crew, judge)
     misfits = [replace(case, nearest=new, outside=new) for case, new in zip(misfits, nearest, strict=True)]
@@ -108,13 +103,6 @@ def _distance(replica: Replica) -> float:
 def _prediction(space: ParameterSpace, predictor: Predictor | None, cases: Sequence[Case]) -> Prediction:
     """What the predictor says, or the iteration's parameters, not quite sure of their choices, where none is known."""
     if predictor and [(p.name, p.classes) for p in predictor.space] == [(p.name, p.classes) for p in space]:
-        return predictor.infer([case.reference for case in cases])
-    columns = []
-    for parameter in space:
-        values = np.array([parameter.encode(c.replica.parameters[parameter.name]) for c in cases], dtype=np.float32)
-        if parameter.classes:
-            likely = np.full((len(cases), parameter.classes), _UNSURE / parameter.classes, dtype=np.float32)
-            likely[np.arange(len(cases)), values.astype(int)] += 1.0 - _UNSURE
-            values = likely
-        columns.append(values)
-    return columns
+        # A predictor that was saved has lost each ``when`` of its space.
+        return replace(predictor.infer([case.reference for case in cases]), space=space)
+    return Prediction.of(space, [case.replica.parameters for case in cases], doubt=_UNSURE)

@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from shapewright.building import Workers
 from shapewright.feedback.case import Replica
 from shapewright.feedback.causes.replicas import ENOUGH, affordable, measured, nearer
 from shapewright.judging.judge import Judge
-from shapewright.parameters import End, Integer, ParameterSpace
+from shapewright.parameters import End, Integer, ParameterSpace, Prediction
 from shapewright.search.budgets import Budget, Round
 from shapewright.search.search import refine
 
@@ -25,6 +22,7 @@ _SHARE = 0.4  # of the evaluations for all references
 _TURNS = 2  # a longer Range may bring parameters to the ends of others
 _SPREAD = 0.06  # of the first random points, encoded in a space that is a few times as wide
 _CLOSE = 0.4  # of the threshold: beyond a Range the surfaces have to come together as well
+_NEXT, _OTHER = 0.1, 1e-6  # likelihoods of the next integer and of any other class, where the known one's is 1
 _LEVEL = 0.1  # part of what longer Ranges bring that is not worth one of them
 
 
@@ -55,8 +53,7 @@ def _searched(known: Sequence[Replica], ends: Sequence[set[End]], crew: Workers,
     space = crew.procedure.space
     wide = space.widened()
     vectors = refine(
-        wide,
-        [_prediction(wide, column, known, ends) for column in range(len(wide))],
+        _prediction(wide, known, ends),
         crew,
         judge.measure([replica.row for replica in known], [replica.field for replica in known]),
         affordable(_with_integers(OUTSIDE, space, ends), _SHARE, len(known), crew),
@@ -96,20 +93,13 @@ def _with_integers(budget: Budget, space: ParameterSpace, ends: Sequence[set[End
     return replace(budget, rounds=(first, *budget.rounds[1:]))
 
 
-def _prediction(
-    wide: ParameterSpace, column: int, known: Sequence[Replica], ends: Sequence[set[End]]
-) -> NDArray[np.float32]:
-    """What is known, in the form of a prediction; an integer that rests on an end of its Range may leave it."""
-    parameter = wide.parameters[column]
-    values = np.array([parameter.encode(replica.parameters[parameter.name]) for replica in known], dtype=np.float32)
-    if not parameter.classes:
-        return values
-    likely = np.full((len(known), parameter.classes), 1e-6, dtype=np.float32)
-    for row, (value, free) in enumerate(zip(values.astype(int), ends, strict=True)):
-        likely[row, value] = 1.0
-        if isinstance(parameter, Integer):
-            if (parameter.name, "low") in free and value > 0:
-                likely[row, value - 1] = 0.1
-            if (parameter.name, "high") in free and value + 1 < parameter.classes:
-                likely[row, value + 1] = 0.1
-    return likely
+def _prediction(wide: ParameterSpace, known: Sequence[Replica], ends: Sequence[set[End]]) -> Prediction:
+    """What is known; an integer that rests on an end of its Range may leave it by one."""
+    prediction = Prediction.of(wide, [replica.parameters for replica in known], least=_OTHER)
+    for parameter, column in zip(wide, prediction.columns, strict=True):
+        for row, free in enumerate(ends if isinstance(parameter, Integer) else ()):
+            value = int(column[row].argmax())
+            for side, neighbour in (("low", value - 1), ("high", value + 1)):
+                if (parameter.name, side) in free and 0 <= neighbour < parameter.classes:
+                    column[row, neighbour] = _NEXT
+    return prediction

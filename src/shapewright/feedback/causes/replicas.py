@@ -9,21 +9,18 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.feedback.case import Case, Replica
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.judging.judge import Judge
-from shapewright.parameters import Parameters, Scalar
+from shapewright.parameters import Parameters, Prediction, Scalar
 from shapewright.prediction.lookup import nearest
 from shapewright.rendering.raster import render
 from shapewright.search.budgets import Budget, Round
 from shapewright.search.objective import measure_of
 from shapewright.search.search import refine
 from shapewright.shapes import Mesh
-
-Prediction = Sequence[NDArray[np.float32]]
 
 _RIVAL = 1.25  # of the best combination's cost
 NEAREST = Budget((Round(8), Round(2, rival=_RIVAL), *(Round(1, 2, 5),) * 12), patience=1)
@@ -69,7 +66,6 @@ def nearest_replicas(
     prediction: for the same references. budget: by default what their number affords.
     """
     vectors = refine(
-        crew.procedure.space,
         prediction,
         crew,
         judge.measure([replica.row for replica in known], [replica.field for replica in known]),
@@ -91,7 +87,6 @@ def covering_replicas(
     A search starts from the most similar of some random shapes where that has more in common with the reference.
     """
     vectors = refine(
-        crew.procedure.space,
         prediction,
         crew,
         measure_of(overlays, judge.settings.workers),

@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.building import Workers
 from shapewright.comparison.light_field import RAW_SCALE
@@ -17,7 +16,7 @@ from shapewright.feedback.case import Replica
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.trials.outcome import Outcome
 from shapewright.judging.judge import Judge
-from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.parameters import Parameters, ParameterSpace, Prediction
 from shapewright.procedures import load_procedure
 from shapewright.search.budgets import Budget, Round
 from shapewright.search.objective import Measure
@@ -176,8 +175,7 @@ def _refined(
     encoded = np.array([space.encode(values) for values in vectors])
     fixed = np.array([only is not None and name not in only for name in space.names])
     return refine(
-        space,
-        _as_inferred(space, vectors, sure),
+        Prediction.of(space, vectors, _UNLIKE, most=1.0 - _UNLIKE, sure=[sure] if sure else []),
         crew,
         measure,
         budget,
@@ -186,18 +184,3 @@ def _refined(
         spread=_SPREAD,
         enough=goal,
     )
-
-
-def _as_inferred(space: ParameterSpace, vectors: Sequence[Parameters], sure: str | None) -> list[NDArray[np.float32]]:
-    """Parameters in the form of a prediction that is all but sure of them, and quite sure of one."""
-    encoded = np.array([space.encode(values) for values in vectors], dtype=np.float32).reshape(len(vectors), len(space))
-    columns: list[NDArray[np.float32]] = []
-    for column, parameter in zip(encoded.T, space, strict=True):
-        if not parameter.classes:
-            columns.append(column)
-            continue
-        doubt = 0.0 if parameter.name == sure else _UNLIKE
-        likely = np.full((len(column), parameter.classes), doubt / parameter.classes, dtype=np.float32)
-        likely[np.arange(len(column)), column.astype(int)] = 1.0 - doubt
-        columns.append(likely)
-    return columns

@@ -60,18 +60,18 @@ def predicted(iteration: Any) -> dict[str, Any]:
     results = [result for result in iteration.results if result.reference is not None]
     if predictor is None or not results:
         return {}
-    inferred = predictor.infer_with_spread([result.reference for result in results])
-    values = predictor.decode(inferred.values)
+    prediction = predictor.infer([result.reference for result in results])
+    values = prediction.decode()
     found: dict[str, Any] = {}
     for i, result in enumerate(results):
         spread, likelihood = {}, {}
         for j, parameter in enumerate(predictor.space):
             if parameter.classes:
-                shares = inferred.values[j][i]
+                shares = prediction.columns[j][i]
                 levels = parameter.levels
                 likelihood[parameter.name] = {_key(v): round(float(p), 4) for v, p in zip(levels, shares, strict=True)}
             else:
-                spread[parameter.name] = float(inferred.spreads[j][i]) * (parameter.high - parameter.low)
+                spread[parameter.name] = float(prediction.spreads[j][i]) * (parameter.high - parameter.low)
         found[result.name] = {"predicted": values[i], "spread": spread, "likelihood": likelihood}
     return found
 
