@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from shapewright import Mesh
-from shapewright.modelling import deformation
+from shapewright.modelling import verbs
 from shapewright.modelling.deformation import Domain
 from shapewright.modelling.facets import Surface, deformed
 from shapewright.modelling.solids import sphere
@@ -72,22 +72,22 @@ def test_triangles_of_a_polygon_cover_it_and_the_shorter_diagonal_is_taken():
 
 def test_cuts_are_made_where_the_deformation_curves_only():
     domain = Domain((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
-    straight = deformed(CUBE, [deformation.taper(domain, 0.5, "y")], 1e-4)
+    straight = deformed(CUBE, [verbs.taper(domain, 0.5, "y")], 1e-4)
     assert len(straight.owners) == 6
-    arched = deformed(CUBE, [deformation.path(domain, [(0, 0, 0), (0.3, 0, 0), (0, 0, 0)], "y")], 1e-2)
+    arched = deformed(CUBE, [verbs.path(domain, (0, 0, 0), (0.3, 0, 0), (0, 0, 0), axis="y")], 1e-2)
     heights = np.unique(arched.points[:, 1])
     assert 3 <= len(heights) <= 6 and len(arched.points) == 4 * len(heights)
-    sideways = deformation.path(domain, [(0, 0, 0), (0, 0.3, 0), (0, 0, 0)], "x")
-    both = deformed(CUBE, [deformation.twist(domain, 90, "x"), sideways], 1e-2)
+    sideways = verbs.path(domain, (0, 0, 0), (0, 0.3, 0), (0, 0, 0), axis="x")
+    both = deformed(CUBE, [verbs.twist(domain, 90, "x"), sideways], 1e-2)
     assert mesh(both)[0].soundness().sound
-    turned = deformed(CUBE, [deformation.turn(domain, 30, "z", (0.5, 0.5, 0.5))], 1e-4)
+    turned = deformed(CUBE, [verbs.turn(domain, 30, "z", (0.5, 0.5, 0.5))], 1e-4)
     assert len(turned.owners) == 6
 
 
 def test_a_cut_near_points_that_are_there_is_made_through_them():
     """Else a strip as thin as rounding would arise."""
     domain = Domain((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
-    arch = [deformation.path(domain, [(0, 0, 0), (0.5, 0, 0), (0, 0, 0)], "y")]
+    arch = [verbs.path(domain, (0, 0, 0), (0.5, 0, 0), (0, 0, 0), axis="y")]
     plain = sorted(set(deformed(CUBE, arch, 1e-2).points[:, 1]))
     near = plain[1] + 0.01
     again = sorted(set(deformed(CUBE.cut(1, [near]), arch, 1e-2).points[:, 1]))
@@ -96,8 +96,8 @@ def test_a_cut_near_points_that_are_there_is_made_through_them():
 
 def test_beyond_its_domain_a_deformation_goes_on_as_at_its_end():
     half = Domain((0.0, 0.0, 0.0), (1.0, 0.5, 1.0))
-    tapered = deformed(CUBE, [deformation.taper(half, 0.5, "y")], 1e-3)
+    tapered = deformed(CUBE, [verbs.taper(half, 0.5, "y")], 1e-3)
     widths = {y: np.ptp(tapered.points[tapered.points[:, 1] == y][:, 0]) for y in (0.0, 0.5, 1.0)}
     assert widths == {0.0: pytest.approx(1), 0.5: pytest.approx(0.5), 1.0: pytest.approx(0.5)}
-    bent = deformed(CUBE, [deformation.bend(Domain((0.4, 0, 0.4), (0.6, 0.5, 0.6)), 40, "y", "x", 0.0)], 1e-3)
+    bent = deformed(CUBE, [verbs.bend(Domain((0.4, 0, 0.4), (0.6, 0.5, 0.6)), 40, "y", "x", 0.0)], 1e-3)
     assert mesh(bent)[0].soundness().sound

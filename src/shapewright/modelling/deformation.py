@@ -7,14 +7,14 @@ end at t = 1; beyond the ends it goes on as it was there. Deformations are value
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from shapewright.modelling import arguments
-from shapewright.modelling.arguments import Point, Vector
+from shapewright.modelling.arguments import Point
 from shapewright.modelling.curves import bernstein
 from shapewright.shapes import Floats
 
@@ -31,6 +31,11 @@ class Domain(NamedTuple):
         (ax, ay, az), (bx, by, bz) = self.low, self.high
         return (ax + bx) / 2.0, (ay + by) / 2.0, (az + bz) / 2.0
 
+    @property
+    def handed(self) -> int:
+        """-1 when an odd number of its axes face against those of space: turns go the other way."""
+        return self.facing[0] * self.facing[1] * self.facing[2]
+
     def along(self, function: str, axis: str) -> Along:
         index, sign = self.towards(function, axis)
         near, far = (self.low, self.high) if sign > 0 else (self.high, self.low)
@@ -40,6 +45,13 @@ class Domain(NamedTuple):
         """The index of an axis of space, and the sign of a direction of this box along it."""
         index, sign = arguments.direction(function, axis, name)
         return index, sign * self.facing[index]
+
+    @property
+    def _domain(self) -> Domain:
+        return self
+
+    def _deformed(self, by: Deformation, tolerance: float) -> Deformation:
+        return by
 
 
 class Along(NamedTuple):
@@ -182,97 +194,3 @@ class Free:
 
 
 Deformation: TypeAlias = Scale | Shift | Twist | Bend | Bulge | Turn | Free
-
-
-def taper(domain: Domain, scale: float | Sequence[float], axis: str) -> Deformation:
-    """See Box.taper."""
-    return _scale("taper", domain, (1.0, scale), axis)
-
-
-def profile(domain: Domain, scales: Sequence[float | Sequence[float]], axis: str) -> Deformation:
-    """See Box.profile."""
-    if len(scales) < 2:
-        raise ValueError("profile: it takes at least two factors, one for each end")
-    return _scale("profile", domain, scales, axis)
-
-
-def _scale(function: str, domain: Domain, scales: Sequence[float | Sequence[float]], axis: str) -> Deformation:
-    factors = tuple(arguments.pair(function, "scale", scale) for scale in scales)
-    if min(min(factor) for factor in factors) <= 0.0:
-        raise ValueError(f"{function}: its factors {scales!r} must be positive")
-    return Scale(domain.along(function, axis), factors)
-
-
-def path(domain: Domain, offsets: Sequence[Vector], axis: str) -> Deformation:
-    """See Box.path."""
-    if len(offsets) < 2:
-        raise ValueError("path: it takes at least two offsets, one for each end")
-    points = [arguments.vector("path", "offset", offset) for offset in offsets]
-    fx, fy, fz = domain.facing
-    along = domain.along("path", axis)
-    shift = Shift(along, tuple((x * fx, y * fy, z * fz) for x, y, z in points))
-    lengthwise = [offset[along.axis] for offset in shift.offsets]
-    if any(lengthwise):
-        t = np.linspace(0.0, 1.0, 65)
-        advance = along.length * t + bernstein([[offset] for offset in lengthwise], t)[:, 0]
-        if (np.diff(advance) * along.length <= 0.0).any():
-            raise ValueError(f"path: the offsets {list(offsets)!r} fold the box back on itself along {axis}")
-    return shift
-
-
-def twist(domain: Domain, degrees: float, axis: str) -> Deformation:
-    """See Box.twist."""
-    _, sign = domain.towards("twist", axis)
-    handed = domain.facing[0] * domain.facing[1] * domain.facing[2]
-    return Twist(domain.along("twist", axis), arguments.number("twist", "degrees", degrees) * sign * handed)
-
-
-def bend(domain: Domain, degrees: float, axis: str, towards: str, fixed: float) -> Deformation | None:
-    """See Box.bend. None for a bend of 0 degrees."""
-    along = domain.along("bend", axis)
-    index, sign = domain.towards("bend", towards, "towards")
-    turn = arguments.number("bend", "degrees", degrees)
-    if index == along.axis:
-        raise ValueError(f"bend: axis={axis!r} cannot be bent towards={towards!r}; it must be across")
-    if turn < 0.0:
-        turn, sign = -turn, -sign
-    if turn == 0.0:
-        return None
-    radius = abs(along.length) / math.radians(turn)
-    half = (domain.high[index] - domain.low[index]) / 2.0
-    if radius <= half:
-        raise ValueError(
-            f"bend: {degrees:g} degrees over a length of {abs(along.length):.4g} is a radius of {radius:.4g}, "
-            f"less than half the thickness ({half:.4g}): the inside would fold"
-        )
-    return Bend(along, turn, index, sign, arguments.number("bend", "fixed", fixed))
-
-
-def bulge(
-    domain: Domain, height: float, face: str, part: tuple[Point, Point] | None = None, round: bool = False
-) -> Deformation:
-    """See Box.bulge. face: the direction of the side that is pushed out."""
-    along = domain.along("bulge", face)
-    rise = arguments.number("bulge", "height", height)
-    if rise <= -abs(along.length):
-        raise ValueError(f"bulge: height={height!r} pushes the side through the other one")
-    low, high = part or (domain.low, domain.high)
-    u, v = along.across
-    return Bulge(along, rise, (low[u], low[v]), (high[u], high[v]), round)
-
-
-def turn(domain: Domain, degrees: float, axis: str, about: Point) -> Deformation:
-    """See Box.rotate. about: a place in the box, 0 to 1 along each axis."""
-    index, sign = domain.towards("rotate", axis)
-    handed = domain.facing[0] * domain.facing[1] * domain.facing[2]
-    angle = math.radians(arguments.number("rotate", "degrees", degrees)) * sign * handed
-    u, v = (index + 1) % 3, (index + 2) % 3
-    matrix = np.eye(3)
-    matrix[u, u] = matrix[v, v] = math.cos(angle)
-    matrix[v, u], matrix[u, v] = math.sin(angle), -math.sin(angle)
-    place = [
-        low + (high - low) * (share if facing > 0 else 1.0 - share)
-        for low, high, facing, share in zip(domain.low, domain.high, domain.facing, about, strict=True)
-    ]
-    rows = tuple((float(x), float(y), float(z)) for x, y, z in matrix)
-    return Turn((rows[0], rows[1], rows[2]), (place[0], place[1], place[2]))

@@ -12,8 +12,8 @@ from manifold3d import Manifold
 
 from shapewright.modelling.deformation import Deformation
 from shapewright.modelling.facets import Surface, deformed
-from shapewright.modelling.grammar.boxes import SIDES, Box
-from shapewright.modelling.grammar.forms import Fill, Round
+from shapewright.modelling.grammar.boxes import Box
+from shapewright.modelling.grammar.forms import SIDES, Fill, Round
 from shapewright.modelling.grammar.grid_union import unite
 from shapewright.modelling.solid.sections import without_repeats
 from shapewright.modelling.solid.solid import Solid, labelled, union

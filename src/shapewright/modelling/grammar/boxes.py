@@ -9,43 +9,27 @@ new ones, and raises ValueError when a size would be negative.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
+from typing import Any
 
 import numpy as np
 
-from shapewright.modelling import arguments, deformation
+from shapewright.modelling import arguments, deformation, verbs
 from shapewright.modelling.arguments import Axis, Direction, Point, Vector
+from shapewright.modelling.curves import TOLERANCE
 from shapewright.modelling.deformation import Deformation, Domain
 from shapewright.modelling.grammar import divisions
 from shapewright.modelling.grammar.divisions import Size
-from shapewright.modelling.grammar.forms import Fill, Group, Round
+from shapewright.modelling.grammar.forms import Fields, Fill, Group, Round, Side, replaced, side_index
 from shapewright.modelling.solid.solid import Solid
 from shapewright.shapes import Floats
 
-Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
-T = TypeVar("T")
-SIDES: tuple[Side, ...] = ("left", "right", "bottom", "top", "back", "front")
 _ROUNDING = 1e-9
 
 
-class Box(NamedTuple):
-    """A box in space, or in the space of the deformed box that it is part of.
+class Box(Fields):
+    """A box in space, or in the space of the deformed box that it is part of."""
 
-    low, high: its corners. facing: 1, or -1 for each axis against which it faces. symbol: the tag that decides which
-    rules apply to it. names: its label (under None) and those of single sides. form: how it is rounded or filled.
-    deformations: its own, the first first. groups: those that it is part of, the outermost first.
-    A named tuple, because most of the time of a derivation goes into making boxes.
-    """
-
-    low: Point
-    high: Point
-    facing: tuple[int, int, int] = (1, 1, 1)
-    symbol: str = ""
-    names: tuple[tuple[Side | None, str], ...] = ()
-    form: Round | Fill | None = None
-    deformations: tuple[Deformation, ...] = ()
-    groups: tuple[Group, ...] = ()
-    is_void: bool = False
+    __slots__ = ()
 
     @property
     def size(self) -> Point:
@@ -64,8 +48,6 @@ class Box(NamedTuple):
     def depth(self) -> float:
         return self.high[2] - self.low[2]
 
-    # What it is
-
     def tag(self, symbol: str) -> Box:
         """The box with a tag: the rules for it apply next; without any, the box is done and the tag is its label."""
         return self._replace(symbol=symbol)
@@ -73,7 +55,7 @@ class Box(NamedTuple):
     def label(self, name: str, *sides: Side) -> Box:
         """A label for all that the box becomes, instead of tags; or for some sides of a box that no rule divides."""
         for side in sides:
-            _side("label", side)
+            side_index("label", side)
         mine = {key: value for key, value in self.names if key not in (sides or (None,))}
         return self._replace(names=(*mine.items(), *((side, name) for side in sides or (None,))))
 
@@ -111,7 +93,7 @@ class Box(NamedTuple):
     def flip(self, axis: Axis) -> Box:
         """The box facing the other way along an axis: what is made in it is mirrored."""
         index = arguments.axis("flip", axis)
-        return self._replace(facing=_with(self.facing, index, -self.facing[index]))
+        return self._replace(facing=replaced(self.facing, index, -self.facing[index]))
 
     # Dividing it
 
@@ -152,9 +134,6 @@ class Box(NamedTuple):
                 low[index], high[index] = low[index] + near, high[index] - far
         return self._part("inset", _point(low), _point(high))
 
-    def _shortened(self, axis: Axis, margin: float) -> Box:
-        return self.inset(x=margin) if axis == "x" else self.inset(y=margin) if axis == "y" else self.inset(z=margin)
-
     def sub(self, size: Sequence[float | None], anchor: Vector = (0.5, 0.5, 0.5)) -> Box:
         """A box of its own size at a place in this one.
 
@@ -177,7 +156,7 @@ class Box(NamedTuple):
             raise ValueError(f"ends: size={size:.4g} along {axis} must lie in 0..{self.size[index]:.4g}")
         near = self._between("ends", index, sign, 0.0, size)
         far = self._between("ends", index, -sign, 0.0, size)
-        inwards, outwards = _with(self.facing, index, -sign), _with(self.facing, index, sign)
+        inwards, outwards = replaced(self.facing, index, -sign), replaced(self.facing, index, sign)
         return near._replace(facing=inwards), far._replace(facing=outwards)
 
     def corners(self, size: float | tuple[float, float], axis: Axis = "y") -> list[Box]:
@@ -197,8 +176,8 @@ class Box(NamedTuple):
         """
         first, second = _across(axis)
         u, v = arguments.pair("rails", "corner", corner)
-        along = self._shortened(first, u).ends(second, v if thickness is None else thickness)
-        across = self._shortened(second, v).ends(first, u if thickness is None else thickness)
+        along = self.inset(**{first: u}).ends(second, v if thickness is None else thickness)
+        across = self.inset(**{second: v}).ends(first, u if thickness is None else thickness)
         return [*along, *across]
 
     # Patches
@@ -207,65 +186,39 @@ class Box(NamedTuple):
         """The patch on a side: a box without thickness that faces outwards."""
         index, sign = self._side_direction(side)
         at = self.high[index] if sign > 0 else self.low[index]
-        patch = self._part("face", _with(self.low, index, at), _with(self.high, index, at))
-        return patch._replace(facing=_with(self.facing, index, sign))
+        patch = self._part("face", replaced(self.low, index, at), replaced(self.high, index, at))
+        return patch._replace(facing=replaced(self.facing, index, sign))
 
     def extrude(self, height: float) -> Box:
         """A patch given thickness, outwards; a negative height goes inwards, into the box whose side it is."""
-        flat = [d for d, extent in enumerate(self.size) if extent == 0.0]
-        if len(flat) != 1:
-            raise ValueError("extrude: only a patch, a box without thickness along one axis, can be extruded")
-        index = flat[0]
+        index = self._thin("extrude: only a patch, a box without thickness along one axis, can be extruded")
         step = arguments.number("extrude", "height", height) * self.facing[index]
         a, b = sorted((self.low[index], self.low[index] + step))
-        return self._part("extrude", _with(self.low, index, a), _with(self.high, index, b))
+        return self._part("extrude", replaced(self.low, index, a), replaced(self.high, index, b))
 
     # Deforming it, and with it all that it is divided into
 
-    def taper(self, scale: float | Sequence[float], axis: Direction = "y") -> Box:
-        """Narrower or wider along an axis: full at its near end, ``scale`` times as wide at the far end.
-
-        scale: one factor, or one each across (for y: x and z). axis: "-y" runs from the top down.
-        """
-        return self._deformed(deformation.taper(self._domain, scale, axis))
-
-    def profile(self, *scales: float | Sequence[float], axis: Direction = "y") -> Box:
-        """As ``taper``, with the factors along the axis on a Bezier curve of these values."""
-        return self._deformed(deformation.profile(self._domain, scales, axis))
-
-    def path(self, *offsets: Vector, axis: Direction = "y") -> Box:
-        """Sections across an axis, moved by offsets (x, y, z), as the box faces, on a Bezier curve of these points."""
-        return self._deformed(deformation.path(self._domain, offsets, axis))
-
-    def twist(self, degrees: float, axis: Direction = "y") -> Box:
-        """Turned about the middle of an axis: not at its near end, by ``degrees`` at the far end."""
-        return self._deformed(deformation.twist(self._domain, degrees, axis))
-
-    def bend(self, degrees: float, axis: Direction = "y", towards: Direction = "z", fixed: float = 0.0) -> Box:
-        """An axis bent to an arc of its own length, its far end turned by ``degrees`` towards another axis.
-
-        fixed: the place along the axis that stays, 0 for its near end, 0.5 for the middle.
-        """
-        bent = deformation.bend(self._domain, degrees, axis, towards, fixed)
-        return self._deformed(bent) if bent else self
+    taper = verbs.taper
+    profile = verbs.profile
+    path = verbs.path
+    twist = verbs.twist
+    bend = verbs.bend
 
     def bulge(self, height: float, on: Side | Box = "top") -> Box:
         """A side, or a patch of one, pushed out in the middle by ``height`` (negative: in) and not at its edges."""
         if isinstance(on, Box):
-            flat = [d for d, extent in enumerate(on.size) if extent == 0.0]
-            if len(flat) != 1:
-                raise ValueError("bulge: give a side, or a patch of one")
-            axis = "xyz"[flat[0]] if on.facing[flat[0]] == self.facing[flat[0]] else f"-{'xyz'[flat[0]]}"
-            return self._deformed(deformation.bulge(self._domain, height, axis, (on.low, on.high)))
-        index, sign = self._side_direction(on)
-        axis = "xyz"[index] if sign == self.facing[index] else f"-{'xyz'[index]}"
-        round_ = isinstance(self.form, Round) and self.form.radius is None and self.form.axis == index
-        return self._deformed(deformation.bulge(self._domain, height, axis, round=round_))
+            index = on._thin("bulge: give a side, or a patch of one")
+            sign, part, round_ = on.facing[index], (on.low, on.high), False
+        else:
+            (index, sign), part = self._side_direction(on), None
+            round_ = isinstance(self.form, Round) and self.form.radius is None and self.form.axis == index
+        face = "xyz"[index] if sign == self.facing[index] else f"-{'xyz'[index]}"
+        return self._deformed(verbs.bulge(self._domain, height, face, part, round_))
 
     def rotate(self, degrees: float, axis: Direction = "y", about: Vector = (0.5, 0.5, 0.5)) -> Box:
         """Turned about an axis through a place in the box: 0 to 1 along each axis, from left, bottom and back."""
         place = arguments.vector("rotate", "about", about)
-        return self._deformed(deformation.turn(self._domain, degrees, axis, place))
+        return self._deformed(verbs.turn(self._domain, degrees, axis, place))
 
     def deform(self, function: Callable[[Floats], Floats]) -> Box:
         """Every point moved by a function of points (N, 3), relative to the middle of the box, as the box faces."""
@@ -275,8 +228,6 @@ class Box(NamedTuple):
         """The space inside the box, before its deformations: what its rule is given to divide."""
         return Box(self.low, self.high, self.facing, "", self.names, self.form, (), self._inner_groups, self.is_void)
 
-    # Inner workings
-
     @property
     def _inner_groups(self) -> tuple[Group, ...]:
         return (*self.groups, Group(self.deformations)) if self.deformations else self.groups
@@ -285,11 +236,22 @@ class Box(NamedTuple):
     def _domain(self) -> Domain:
         return Domain(self.low, self.high, self.facing)
 
-    def _deformed(self, by: Deformation) -> Box:
+    def _deformed(self, by: Deformation, tolerance: float = TOLERANCE) -> Box:
+        if tolerance != TOLERANCE:
+            raise ValueError(f"deform: tolerance={tolerance!r} is for solids; boxes take that of derive(tolerance=...)")
+        if isinstance(by, deformation.Bend) and by.degrees == 0.0:
+            return self
         return self._replace(deformations=(*self.deformations, by))
 
+    def _thin(self, refusal: str) -> int:
+        """The axis along which a patch has no thickness."""
+        flat = [axis for axis, extent in enumerate(self.size) if extent == 0.0]
+        if len(flat) != 1:
+            raise ValueError(refusal)
+        return flat[0]
+
     def _side_direction(self, side: Side) -> tuple[int, int]:
-        index, sign = divmod(_side("face", side), 2)
+        index, sign = divmod(side_index("face", side), 2)
         return index, self.facing[index] * (1 if sign else -1)
 
     def _pieces(self, verb: str, axis: str, divide: Callable[[float], list[tuple[float, float]]]) -> list[Box]:
@@ -309,7 +271,7 @@ class Box(NamedTuple):
         last = far if end == whole else near + sign * end
         if sign < 0:
             first, last = last, first
-        return self._part(verb, _with(self.low, index, first), _with(self.high, index, last))
+        return self._part(verb, replaced(self.low, index, first), replaced(self.high, index, last))
 
     def _part(self, verb: str, low: Point, high: Point) -> Box:
         """A box within the deformations of this one, which keeps its label."""
@@ -331,17 +293,6 @@ class Box(NamedTuple):
 def _point(values: Iterable[float]) -> Point:
     x, y, z = map(float, values)
     return x, y, z
-
-
-def _side(verb: str, side: str) -> int:
-    if side not in SIDES:
-        raise ValueError(f"{verb}: {side!r} must be one of {', '.join(SIDES)}")
-    return SIDES.index(side)
-
-
-def _with(values: tuple[T, T, T], index: int, value: T) -> tuple[T, T, T]:
-    a, b, c = values
-    return (value, b, c) if index == 0 else (a, value, c) if index == 1 else (a, b, value)
 
 
 def _across(axis: Axis) -> tuple[Axis, Axis]:

@@ -36,9 +36,9 @@ from typing import Any, Literal, TypeVar
 from shapewright.modelling.arguments import Vector
 from shapewright.modelling.arguments import size as checked_size
 from shapewright.modelling.curves import TOLERANCE
-from shapewright.modelling.grammar.boxes import SIDES, Box, Side
+from shapewright.modelling.grammar.boxes import Box
 from shapewright.modelling.grammar.divisions import share
-from shapewright.modelling.grammar.forms import Group
+from shapewright.modelling.grammar.forms import SIDES, Group, Side
 from shapewright.modelling.solid.solid import Solid
 from shapewright.shapes import Floats, Mesh
 

@@ -1,13 +1,18 @@
-"""What a finished box is besides a plain one, and what boxes are part of."""
+"""What a box of a grammar consists of: its place, how it is rounded or filled, and what it is part of."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
+from shapewright.modelling.arguments import Point
 from shapewright.modelling.deformation import Deformation
 from shapewright.modelling.solid.solid import Solid
+
+T = TypeVar("T")
+Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
+SIDES: tuple[Side, ...] = ("left", "right", "bottom", "top", "back", "front")
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,3 +37,42 @@ class Group:
 
     deformations: tuple[Deformation, ...] = ()
     scope: int = 0
+
+
+class Fields(NamedTuple):
+    """What a box holds. A named tuple, because most of the time of a derivation goes into making boxes.
+
+    Attributes:
+        low: its corner with the least coordinates.
+        high: its corner with the greatest.
+        facing: 1, or -1 for each axis against which it faces.
+        symbol: the tag that decides which rules apply to it.
+        names: its label (under None) and those of single sides.
+        form: how it is rounded or filled.
+        deformations: its own, the first first.
+        groups: those that it is part of, the outermost first.
+        is_void: whether it is cut out of what the same rule makes besides.
+    """
+
+    low: Point
+    high: Point
+    facing: tuple[int, int, int] = (1, 1, 1)
+    symbol: str = ""
+    names: tuple[tuple[Side | None, str], ...] = ()
+    form: Round | Fill | None = None
+    deformations: tuple[Deformation, ...] = ()
+    groups: tuple[Group, ...] = ()
+    is_void: bool = False
+
+
+def side_index(verb: str, side: str) -> int:
+    """The index of a side among SIDES."""
+    if side not in SIDES:
+        raise ValueError(f"{verb}: {side!r} must be one of {', '.join(SIDES)}")
+    return SIDES.index(side)
+
+
+def replaced(values: tuple[T, T, T], index: int, value: T) -> tuple[T, T, T]:
+    """Three values, of which one is another."""
+    a, b, c = values
+    return (value, b, c) if index == 0 else (a, value, c) if index == 1 else (a, b, value)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from manifold3d import Error, Manifold, Mesh64, OpType
 
-from shapewright.modelling import arguments, deformation
+from shapewright.modelling import arguments, deformation, verbs
 from shapewright.modelling.arguments import ORIGIN, Axis, Direction, Vector
 from shapewright.modelling.curves import TOLERANCE
 from shapewright.modelling.solid.alignment import aligned, manifold_of
@@ -113,45 +113,15 @@ class Solid:
         number = arguments.count("polar_array", count, 1)
         return union(*(self.rotate(360 * i / number, axis, about) for i in range(number)))
 
-    def taper(self, scale: float | Sequence[float], axis: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
-        """Narrower or wider along an axis: full at its low end, ``scale`` times as wide at the other.
-
-        scale: one factor, or one each across (for y: x and z). "-y" runs from the top down. tolerance, here and below:
-        how far facets may be from the smooth shape, as a part of the largest extent.
-        """
-        return self._deformed(deformation.taper(self._domain, scale, axis), tolerance)
-
-    def profile(self, *scales: float | Sequence[float], axis: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
-        """As ``taper``, with the factors along the axis on a Bezier curve of these values."""
-        return self._deformed(deformation.profile(self._domain, scales, axis), tolerance)
-
-    def path(self, *offsets: Vector, axis: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
-        """Sections across an axis, moved aside by offsets (x, y, z) on a Bezier curve of these points."""
-        return self._deformed(deformation.path(self._domain, offsets, axis), tolerance)
-
-    def twist(self, degrees: float, axis: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
-        """Turned about the middle of an axis: not at its low end, by ``degrees`` at the other."""
-        return self._deformed(deformation.twist(self._domain, degrees, axis), tolerance)
-
-    def bend(
-        self,
-        degrees: float,
-        axis: Direction = "y",
-        towards: Direction = "z",
-        fixed: float = 0.0,
-        tolerance: float = TOLERANCE,
-    ) -> Solid:
-        """An axis bent to an arc of its own length, its far end turned by ``degrees`` towards another axis.
-
-        fixed: the place along the axis that stays, 0 for its low end, 0.5 for the middle.
-        Raises ValueError when the bend is too tight for the solid's thickness.
-        """
-        bent = deformation.bend(self._domain, degrees, axis, towards, fixed)
-        return self._deformed(bent, tolerance) if bent else self
+    taper = verbs.taper
+    profile = verbs.profile
+    path = verbs.path
+    twist = verbs.twist
+    bend = verbs.bend
 
     def bulge(self, height: float, face: Direction = "y", tolerance: float = TOLERANCE) -> Solid:
         """The side that faces a direction, pushed out in the middle by ``height``; negative for in."""
-        return self._deformed(deformation.bulge(self._domain, height, face), tolerance)
+        return self._deformed(verbs.bulge(self._domain, height, face), tolerance)
 
     def deform(self, function: Callable[[Floats], Floats], tolerance: float = TOLERANCE) -> Solid:
         """Every point moved by a function from points (N, 3) to points (N, 3), which must not fold space."""
@@ -248,6 +218,8 @@ class Solid:
         return deformation.Domain(low, high)
 
     def _deformed(self, by: Deformation, tolerance: float) -> Solid:
+        if isinstance(by, deformation.Bend) and by.degrees == 0.0:
+            return self
         slack = arguments.positive("deform", "tolerance", tolerance) * float(np.ptp(self.bounds, axis=0).max())
         return self.deformed((by,), slack)
 
