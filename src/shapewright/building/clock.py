@@ -10,10 +10,11 @@ from collections.abc import Callable, Iterator
 from types import FrameType
 
 COMPILING = "compiling"
-"""What a worker tells its parent while numba is compiling: the clock stands still."""
+"""Message of a worker to its parent while numba compiles: this time does not count."""
 MOST = 120.0
-"""Seconds that are granted for compiling, at most."""
+"""Seconds from the start in which compiling does not count, at most."""
 _TICKS = 10
+"""Ticks of the clock to one time limit."""
 _NUMBA = f"{os.sep}numba{os.sep}"
 
 
@@ -23,10 +24,10 @@ class TimeLimit(BaseException):
 
 @contextlib.contextmanager
 def time_limit(seconds: float, compiling: Callable[[], object] = lambda: None) -> Iterator[None]:
-    """Raise TimeLimit in the block after so many seconds; on systems without timers the block takes what it takes.
+    """Raise TimeLimit in the block after ``seconds``; a system without timers has no limit.
 
-    The first shape of a procedure may need kernels that are compiled only once on a machine and then kept: of the ticks
-    of a clock, ten to the limit, those at which numba compiles do not count, and ``compiling`` is called.
+    The first shape of a procedure may need kernels, which are compiled once on a machine and then kept. A clock ticks
+    _TICKS times within the limit. A tick at which numba compiles does not count; it calls ``compiling`` instead.
     """
     if not hasattr(signal, "setitimer"):
         yield

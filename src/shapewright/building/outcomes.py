@@ -1,4 +1,4 @@
-"""What became of one shape: built, or failed and why; and what a shape may cost."""
+"""The outcome of one attempt at a shape: the shape, or why it failed; and what a shape may cost."""
 
 from __future__ import annotations
 
@@ -16,7 +16,12 @@ FailureKind = Literal["infeasible", "raised", "no shape", "time", "memory", "cra
 
 @dataclass(frozen=True)
 class Limits:
-    """What one shape may cost. seconds: wall time; memory_mb: address space of a worker beyond its start (POSIX)."""
+    """What one shape may cost.
+
+    Attributes:
+        seconds: wall time.
+        memory_mb: megabytes of a worker's address space, beyond what it has at its start (POSIX).
+    """
 
     seconds: float = 10.0
     memory_mb: int = 2048
@@ -52,7 +57,14 @@ class Failure:
 
 @dataclass(frozen=True)
 class Build:
-    """One attempt: the parameters, and the shape or the failure."""
+    """One attempt at a shape.
+
+    Attributes:
+        parameters: what the procedure was called with.
+        shape: what it built, None when it failed.
+        failure: why it failed, None when it did not.
+        seconds: wall time.
+    """
 
     parameters: Parameters
     shape: Shape | None

@@ -23,13 +23,15 @@ from shapewright.procedures import Procedure, ProcedureError
 from shapewright.threads import cores
 
 SLICE = 64
+"""Shapes in one request to a worker, at most."""
 _PROBES = (3, 8)
+"""First shapes that say whether a procedure is broken: all too slow, or all failed."""
 
 
 class Workers:
-    """A few worker processes that build shapes of one procedure at a time; a context manager.
+    """Worker processes that build shapes of one procedure at a time; a context manager.
 
-    The results are in the order asked for and do not depend on the number of workers.
+    The results are in the order of the request and do not depend on the number of workers.
     """
 
     def __init__(
@@ -60,7 +62,7 @@ class Workers:
         self._idle.clear()
 
     def turn_to(self, procedure: Procedure) -> None:
-        """Build shapes of another procedure from now on, in the same processes: to start one takes far longer.
+        """Build shapes of another procedure from now on, in the same processes: starting a process takes far longer.
 
         Raises ProcedureError when the procedure does not load there.
         """
@@ -80,9 +82,8 @@ class Workers:
     ) -> list[Build]:
         """Build every vector. A failure costs its own shape only.
 
-        give_up: raise ProcedureError when the first shapes all fail for another reason than Infeasible (3 that exceed
-        the time limit, or 8 of any kind): then the procedure itself is broken, and thousands more would only say so
-        later.
+        give_up: raise ProcedureError when the first shapes all fail for another reason than Infeasible: 3 that exceed
+        the time limit, or 8 of any kind. Then the procedure itself is broken, and more shapes would all fail.
         """
         results: list[Build | None] = [None] * len(parameters)
         done = 0
@@ -92,8 +93,8 @@ class Workers:
             done = max(done, probes.stop)
             _give_up_if_broken([result for result in results[:done] if result is not None], count)
         size = max(1, min(SLICE, (len(parameters) - done) // (4 * self.count)))
-        rest = [range(i, min(i + size, len(parameters))) for i in range(done, len(parameters), size)]
-        self._run(parameters, rest, results, progress)
+        slices = [range(i, min(i + size, len(parameters))) for i in range(done, len(parameters), size)]
+        self._run(parameters, slices, results, progress)
         return [result for result in results if result is not None]
 
     def _run(

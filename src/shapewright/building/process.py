@@ -1,4 +1,4 @@
-"""One worker process, seen from its parent: started, asked, and ended when a shape takes it down."""
+"""One worker process, seen from its parent: it is started, gets requests, and is ended when a shape breaks it."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from shapewright.parameters import Parameters
 
 _PROGRAM = "shapewright.building.worker"
 _START_SECONDS = 60.0
+"""Seconds that a worker may take to start and to read the procedure's file. A usual start takes a quarter of one."""
 SINGLE_THREADED = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 
@@ -70,7 +71,7 @@ class WorkerProcess:
             raise answer.error()
 
     def exchange(self, request: Any, stop: threading.Event) -> Any:
-        """What the worker answers, or the failure that ended it; stop: leave off waiting, the worker is then lost."""
+        """The worker's answer, or the failure that ended it. stop: ends the wait; the worker is then lost."""
         try:
             self.connection.send(request)
         except OSError:

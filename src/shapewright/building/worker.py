@@ -18,11 +18,12 @@ from shapewright.parameters import Parameters
 from shapewright.procedures import Infeasible, Procedure, ProcedureError, describe, load_procedure, place_of
 
 _ANSWER_WITHIN = 0.25
+"""Share of the time limit after which a worker answers with the shapes it has, so that its parent notices a hang."""
 _READY = "ready"
 
 
 def serve(connection: Connection) -> None:
-    """Answer requests until the other side hangs up: vectors to build, or another procedure to go on with."""
+    """Answer requests until the other side closes: vectors to build, or another procedure to load."""
     with _one_core():
         payload = connection.recv_bytes()
         limits: Limits = connection.recv()

@@ -30,12 +30,20 @@ from shapewright.storage import remove_leftovers, whole_file, write_file
 MANIFEST, RECORD = "manifest.csv", "samples.json"
 _FORMAT = 1
 _CHUNK = 256
+"""Shapes after which the manifest is written, at least; an eighth of those before, so that this costs little."""
 _MEASURES = tuple(field.name for field in fields(Soundness))
 
 
 @dataclass(frozen=True)
 class Samples:
-    """What a folder of samples holds: shapes, of these unsound, vectors without a shape; and why, in words."""
+    """What a folder of samples holds.
+
+    Attributes:
+        shapes: number of files.
+        unsound: number of shapes that are not sound.
+        failed: number of vectors without a shape.
+        failures: why, in words.
+    """
 
     shapes: int
     unsound: int
@@ -70,8 +78,8 @@ def write_samples(
 ) -> Samples:
     """Write shapes at ``count`` random parameter vectors and a manifest of these with the soundness of each shape.
 
-    A folder that holds the first samples of the same procedure, seed and format is gone on with. Drawings are written
-    as SVG; they have no soundness. Raises RunError when the folder holds something else or cannot be written (what is
+    A folder that holds the first samples of the same procedure, seed and format is resumed. Drawings are written as
+    SVG; they have no soundness. Raises RunError when the folder holds something else or cannot be written (what is
     there is then whole), ProcedureError when the procedure is broken.
     """
     vectors = procedure.space.sample(count, seed=seed)

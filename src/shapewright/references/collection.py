@@ -26,9 +26,13 @@ _REASONS = 5
 class Reference:
     """One shape to replicate.
 
-    name: unique in its collection. path: its file, None for a shape made in memory.
-    shape: the mesh, Y up, front towards +Z, or the drawing; its bounding box centred and 1 at its largest.
-    orientation, transform: what was done to it, in this order. notes: what of the file was left out.
+    Attributes:
+        name: unique in its collection.
+        path: its file, None for a shape made in memory.
+        shape: the mesh, Y up, front towards +Z, or the drawing; the bounding box is centred and its largest side is 1.
+        transform: how it was centred and scaled, after it was turned.
+        orientation: how a mesh was turned.
+        notes: what of the file was left out.
     """
 
     name: str
@@ -49,7 +53,7 @@ class Reference:
         return self.orientation.invert(original) if isinstance(self.shape, Mesh) else original
 
     def turned(self, quarters: int) -> Reference:
-        """The same shape after so many quarter turns about the up axis, from the front towards the right.
+        """The same shape after a number of quarter turns about the up axis, from the front towards the right.
 
         A drawing stays as it is.
         """
@@ -73,10 +77,15 @@ class Reference:
 class Collection:
     """The references to replicate, in natural order of their names: ``len``, iteration, ``refs["name"]``.
 
-    They are all meshes, or all drawings; CollectionError is raised for a mixture.
+    All are meshes, or all are drawings. Raises CollectionError for a mixture.
 
-    skipped: the files that could not be read, with the reason. source: where the collection came from, in words.
-    origins: absolute paths or patterns to load it from again, none for one made in memory; up, front: their axes.
+    Attributes:
+        references: the shapes.
+        skipped: reasons by file, for the files that could not be read.
+        source: where the collection comes from, in words.
+        origins: absolute paths or patterns to load it from again; empty for one made in memory.
+        up: the axis of the files that points up.
+        front: the axis of the files that points to the front; None for the usual one.
     """
 
     references: tuple[Reference, ...]
@@ -104,11 +113,14 @@ class Collection:
     ) -> Collection:
         """Read a collection from a folder, a glob pattern, a CSV manifest, a file, or a list of these.
 
-        Read are OBJ, PLY, STL, OFF, GLB, glTF and 3MF, or drawings in PNG and SVG, dark on white;
-        ``sources.find`` says which files a source stands for and how they are named. ``up`` and ``front`` are the axes
-        of the mesh files that point up and to the front of the shapes, among x, y, z, -x, -y, -z; without ``front`` it
-        is z, or -y where up is z or -z, as in Blender and CAD. A file that cannot be read is listed in ``skipped`` with
-        its reason. Raises CollectionError, which says what to do, where there is nothing to load.
+        It reads meshes in OBJ, PLY, STL, OFF, GLB, glTF and 3MF, and drawings in PNG and SVG, dark on white.
+        ``sources.find`` says which files a source stands for and how they are named. A file that cannot be read is
+        listed in ``skipped`` with its reason. Raises CollectionError, which says what to do, where nothing can be read.
+
+        Args:
+            source: one source or several.
+            up: the axis of the mesh files that points up, among x, y, z, -x, -y, -z.
+            front: the axis that points to the front; by default z, or -y where up is z or -z, as in Blender and CAD.
         """
         origins = [source] if isinstance(source, str | os.PathLike) else list(source)
         references: list[Reference] = []
@@ -165,8 +177,8 @@ class Collection:
 
     def __getitem__(self, name: str) -> Reference:
         if name not in self._by_name:
-            near = difflib.get_close_matches(name, self.names) or self.names[:3]
-            raise KeyError(f"no reference {name!r} among {len(self)}; there is {', '.join(near)}")
+            similar = difflib.get_close_matches(name, self.names) or self.names[:3]
+            raise KeyError(f"no reference {name!r} among {len(self)}; there is {', '.join(similar)}")
         return self._by_name[name]
 
     def __repr__(self) -> str:

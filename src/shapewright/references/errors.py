@@ -2,7 +2,7 @@
 
 
 class CollectionError(ValueError):
-    """There is no collection to be had from this source; the message says what to do."""
+    """A source gives no collection; the message says what to do."""
 
 
 class UnreadableError(ValueError):

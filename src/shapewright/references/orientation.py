@@ -50,7 +50,7 @@ class Orientation:
         return np.stack([np.cross(up, front), up, front])
 
     def turned(self, quarters: int) -> Orientation:
-        """This orientation and then so many quarter turns about the up axis, from the front towards the right."""
+        """This orientation and then a number of quarter turns about the up axis, from the front towards the right."""
         front = self.front
         for _ in range(quarters % 4):
             left = -np.cross(_unit(self.up), _unit(front))

@@ -29,7 +29,13 @@ _TEXTURE = ".png"
 
 @dataclass(frozen=True)
 class Source:
-    """A file to read, the name of its reference, and the axes that point up and to the front in it."""
+    """A file to read.
+
+    Attributes:
+        name: of its reference, unique among all sources.
+        path: the file.
+        orientation: the axes that point up and to the front in it.
+    """
 
     name: str
     path: Path
@@ -37,7 +43,7 @@ class Source:
 
 
 @dataclass(frozen=True)
-class _Found:
+class _Entry:
     """A file, with the cells of its row where a manifest lists it."""
 
     path: Path
@@ -49,12 +55,12 @@ class _Found:
 def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> list[Source]:
     """The files of a collection, in natural order of their names (chair2 before chair10).
 
-    A folder gives the files directly in it or, when none of them is a shape, those of all folders below; beside meshes
-    and above them PNG files are textures and previews, and are passed over. A pattern is
-    a glob, ``**`` included. A ``.csv`` file is a manifest: a column ``path``, relative to the manifest, and if wanted
-    ``name``, ``up`` and ``front``; an empty cell leaves the argument in force. Hidden files are passed over, and so are
-    files of other kinds. A name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj``
-    (ShapeNet); where names clash it is the path instead. Raises CollectionError where there is nothing to read.
+    A folder gives the files directly in it. When none of them is a shape, it gives those of all folders below. Beside
+    meshes and above them PNG files are textures and previews, and are left out. A pattern is a glob, ``**`` included.
+    A ``.csv`` file is a manifest with a column ``path``, relative to the manifest, and if wanted the columns ``name``,
+    ``up`` and ``front``; for an empty cell the argument holds. Hidden files and files of other kinds are left out.
+    A name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj`` (ShapeNet). Where names clash
+    the path takes its place. Raises CollectionError where there is nothing to read.
     """
     default = Orientation.of(up, front)
     if not origins:
@@ -77,19 +83,19 @@ def natural_key(name: str) -> tuple[list[int | str], str]:
     return [int(piece) if i % 2 else piece for i, piece in enumerate(pieces)], name
 
 
-def _expand(path: Path, alone: bool) -> list[_Found]:
+def _expand(path: Path, alone: bool) -> list[_Entry]:
     """The files that one origin stands for; a missing or strange file in a list is left for its reader to report."""
     if path.is_dir():
-        return [_Found(file) for file in _in_folder(path)]
+        return [_Entry(file) for file in _in_folder(path)]
     if path.suffix.lower() == MANIFEST and path.is_file():
         return _in_manifest(path)
     if not path.exists() and glob.has_magic(str(path)):
-        return [_Found(file) for file in _in_pattern(path)]
+        return [_Entry(file) for file in _in_pattern(path)]
     if alone and not path.exists():
-        raise CollectionError(f"no such file or folder: {path}{_near(path)}")
+        raise CollectionError(f"no such file or folder: {path}{_alternatives(path)}")
     if alone and not _is_shape(path):
         raise CollectionError(f"{path} is not a kind of file that is read; {_LOOKED_FOR} and {MANIFEST} are")
-    return [_Found(path)]
+    return [_Entry(path)]
 
 
 def _in_folder(folder: Path) -> list[Path]:
@@ -132,28 +138,28 @@ def _in_pattern(pattern: Path) -> list[Path]:
     return shapes
 
 
-def _in_manifest(manifest: Path) -> list[_Found]:
+def _in_manifest(manifest: Path) -> list[_Entry]:
     text = manifest.read_text(encoding="utf-8-sig", errors="replace")
     header, _, _ = text.partition("\n")
     rows = csv.reader(io.StringIO(text, newline=""), delimiter=max(",;\t", key=header.count))
     columns = [cell.strip().lower() for cell in next(rows, [])]
     if "path" not in columns:
         raise CollectionError(f"{manifest} has no column 'path'; its first line has {', '.join(columns) or 'none'}")
-    found: list[_Found] = []
+    found: list[_Entry] = []
     for row in rows:
         cells = {column: cell.strip() for column, cell in zip(columns, row, strict=False)}
         if not any(cells.values()):
             continue
         if not cells.get("path"):
             raise CollectionError(f"{manifest}, line {rows.line_num}: no path")
-        file = _Found(manifest.parent / cells["path"], *(cells.get(column, "") for column in ("name", "up", "front")))
+        file = _Entry(manifest.parent / cells["path"], *(cells.get(column, "") for column in ("name", "up", "front")))
         found.append(file)
     if not found:
         raise CollectionError(f"{manifest} lists no files; give each a line with its path")
     return found
 
 
-def _oriented(file: _Found, up: str, front: str | None) -> Orientation:
+def _oriented(file: _Entry, up: str, front: str | None) -> Orientation:
     try:
         return Orientation.of(file.up or up, file.front or front)
     except CollectionError as error:
@@ -210,12 +216,12 @@ def _kinds(paths: Sequence[Path]) -> str:
     return ", ".join(f"{count} {kind}" for kind, count in counts.most_common(_SHOWN)) or "no files at all"
 
 
-def _near(path: Path) -> str:
-    """What stands where a path stops existing, nearest names first."""
+def _alternatives(path: Path) -> str:
+    """What there is where a path ends that does not exist: similar names, or else some."""
     while not path.parent.exists() and path.parent != path:
         path = path.parent
     there = sorted(entry.name for entry in path.parent.iterdir()) if path.parent.is_dir() else []
-    near = difflib.get_close_matches(path.name, there, n=3)
-    if near:
-        return f"; did you mean {' or '.join(str(path.parent / name) for name in near)}?"
+    similar = difflib.get_close_matches(path.name, there, n=3)
+    if similar:
+        return f"; did you mean {' or '.join(str(path.parent / name) for name in similar)}?"
     return f"; {path.parent} holds {', '.join(there[:_SHOWN]) or 'nothing'}{', ...' if len(there) > _SHOWN else ''}"

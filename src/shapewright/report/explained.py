@@ -16,7 +16,7 @@ from shapewright.runs.folder import EXPLANATION, read_json
 
 PICTURES = "suggestions"
 SHOWN = 6
-"""Regions drawn on a pair of thumbnails, at most; the first ones of a record are the weightiest."""
+"""Regions drawn on a pair of thumbnails, at most; a record lists the weightiest first."""
 _EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b) in (1, 2, 4)]
 
 Floats = NDArray[np.float64]

@@ -21,17 +21,21 @@ from shapewright.storage import write_file
 
 # The paper's colours: green for a perfect replica, yellow at the threshold, red where the metric says far.
 GREEN, YELLOW, RED = (62, 166, 100), (247, 205, 70), (222, 74, 62)
-# Thumbnails are tinted by one of this many filters, not by a colour each.
 TINTS = 25
+"""Filters that tint the thumbnails; each has the nearest one, not one of its own."""
 
 
 def write_report(folder: str | Path, previous: str | Path | None = None, explanation: Path | None = None) -> Path:
     """Write ``folder/report.html`` from ``folder/iteration.json`` and ``folder/thumbnails``; return its path.
 
-    previous: the folder of an earlier iteration to compare with. explanation: the folder that holds
-    ``explanation.json``, where that is another one; without such a file nothing is explained. Pictures are put into
-    the page, so that the file can be moved or sent; only its links to replicas (GLB) point into the folder. Thumbnails
-    that are missing are left blank. Raises RunError for a folder without a record, or with one of another format.
+    The page holds its pictures, so that one can move or send the file; only its links to replicas (GLB) point into the
+    folder. A missing thumbnail stays blank. Raises RunError for a folder without a record, or with one of another
+    format.
+
+    Args:
+        folder: of the run.
+        previous: the folder of an earlier run to compare with.
+        explanation: the folder of ``explanation.json``, if it is another one; without that file nothing is explained.
     """
     folder = Path(folder).expanduser()
     previous = Path(previous).expanduser() if previous else None

@@ -18,7 +18,13 @@ Run: TypeAlias = "Iteration | str | Path | Mapping[str, Any]"
 
 @dataclass(frozen=True)
 class Move:
-    """A reference that both iterations hold, and its distance in either; None where it had no replica."""
+    """A reference that both iterations hold.
+
+    Attributes:
+        name: of the reference.
+        before: its distance in the earlier iteration, None without a replica.
+        after: its distance in the later iteration, None without a replica.
+    """
 
     name: str
     before: float | None

@@ -1,4 +1,4 @@
-"""One turn of the loop, finished: what was found for every reference; written to disk and read back."""
+"""The results of one turn of the loop; it is written to disk and read back."""
 
 from __future__ import annotations
 
@@ -30,8 +30,20 @@ Pictures = Mapping[str, tuple[bytes, bytes | None]]
 class Iteration:
     """The results of one turn of the loop: ``it["name"]``, ``it.compatible``, ``it.groups``, ``it.seconds``.
 
-    metric: by which references are compatible. procedure, collection, metrics, versions: records as the run's JSON
-    holds them. source: text of the procedure.
+    Attributes:
+        results: one of each reference, in the order of the collection.
+        metric: what decides which references are compatible.
+        groups: incompatible references that look alike.
+        settings: what the iteration was run with.
+        seconds: wall time by stage.
+        procedure: its name, path, digest and parameters, as the record has them.
+        source: text of the procedure.
+        collection: where the references come from, as the record has it.
+        metrics: what training and validation measured, as the record has it.
+        versions: of Python and of the libraries that results depend on.
+        created: date and time in ISO 8601, UTC.
+        pictures: thumbnails (PNG) of reference and replica by name; drawn when the run is saved if there are none.
+        predictor: the trained network, None where it was not kept.
     """
 
     results: tuple[Result, ...]
@@ -78,9 +90,9 @@ class Iteration:
 
     @property
     def mean_iou(self) -> float:
-        """Of the compatible references with their replicas; NaN where there are none."""
-        found = [result.iou for result in self.results if result.compatible]
-        return float(np.mean(found)) if found else math.nan
+        """Mean IoU of the compatible references and their replicas; NaN where no reference is compatible."""
+        values = [result.iou for result in self.results if result.compatible]
+        return float(np.mean(values)) if values else math.nan
 
     @cached_property
     def record(self) -> dict[str, Any]:
@@ -110,8 +122,8 @@ class Iteration:
     ) -> Path:
         """Write the run to a folder that does not exist yet, whole or not at all, and return it.
 
-        also: writes more into the folder before it takes its place, such as an explanation or the report. Raises
-        RunError when the folder holds something already or cannot be written; then nothing is left behind.
+        also: writes more files into the folder before it takes its place, such as an explanation or the report.
+        Raises RunError when the folder holds something already or cannot be written. Then nothing stays behind.
         """
         folder = Path(folder).expanduser().absolute()
         with new_folder(folder) as partial:
@@ -146,8 +158,8 @@ class Iteration:
     def _write(self, folder: Path) -> None:
         (folder / RECORD).write_text(json.dumps(self.record, indent=1, allow_nan=False), encoding="utf-8")
         (folder / "procedure.py").write_text(self.source, encoding="utf-8")
-        found = {result.name: result.parameters for result in self.results}
-        (folder / "parameters.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
+        parameters = {result.name: result.parameters for result in self.results}
+        (folder / "parameters.json").write_text(json.dumps(parameters, indent=1), encoding="utf-8")
         self._write_csv(folder / "parameters.csv")
         if self.predictor:
             self.predictor.save(folder / "predictor.pt")
@@ -164,7 +176,7 @@ class Iteration:
                     (folder / "thumbnails" / f"{slug}.{kind}.png").write_bytes(picture)
 
     def _origin(self, result: Result) -> dict[str, Any]:
-        """What a replica's file says of where it comes from."""
+        """Where a replica comes from, for the extras of its file."""
         return {
             "procedure": self.procedure.get("name", "shape"),
             "parameters": result.parameters,

@@ -6,8 +6,8 @@ The file is a JSON list, in the order of marking, of objects
 
 where ``a`` is a reference and ``b`` the reference whose replica it was compared with, which is ``a`` itself where an
 author judges a reference and its own replica. ``run`` is the folder's name of the run that made the replica, and
-``measures`` is what that run measured between the two. Both may be left out, as may measures that are not known; then
-the run at hand says what they are. Other entries of an object are kept as they are.
+``measures`` is what that run measured between the two. Both may be missing, and so may single measures; then the
+current run says what they are. Other entries of an object stay unchanged.
 """
 
 from __future__ import annotations
@@ -27,7 +27,13 @@ MARKS = "marks.json"
 
 @dataclass(frozen=True)
 class Mark:
-    """A judged pair. measures: those of MEASURES that are known."""
+    """A judged pair.
+
+    Attributes:
+        name: of the reference.
+        same: whether the author calls the two the same.
+        measures: those of MEASURES that are known.
+    """
 
     name: str
     same: bool

@@ -1,4 +1,4 @@
-"""What was found for one reference, and its form in a run's record."""
+"""The result of one reference, and its form in a run's record."""
 
 from __future__ import annotations
 
@@ -16,14 +16,23 @@ from shapewright.shapes.files import read_glb
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What was found for one reference.
+    """The result of one reference.
 
-    parameters: in the procedure's units, None when nothing could be built. active: names of those that matter.
-    at_limit: scalars that rest on an end of their Range. replica: the shape the procedure builds, in its own units.
-    distance: by the iteration's metric, iou: of silhouettes, chamfer: in units of the largest extent, depth: difference
-    of depth pictures; NaN without a replica, and the last two also for drawings. group: index into the iteration's
-    groups, None for a compatible reference. reference: the normalised shape, None in an iteration that was loaded.
-    error: why there is no replica.
+    Attributes:
+        name: of the reference.
+        path: its file, None for a shape made in memory.
+        parameters: in the procedure's units, None when nothing could be built.
+        active: names of the parameters that matter at these values.
+        at_limit: scalars at an end of their Range.
+        replica: the shape that the procedure builds, in its own units; None when it failed.
+        distance: by the iteration's metric; NaN without a replica.
+        iou: of the silhouettes, 0 to 1; NaN without a replica.
+        chamfer: distance of the surfaces, in units of the largest extent; NaN without a replica and for drawings.
+        compatible: whether the procedure replicates the reference.
+        group: index of the iteration's group, None for a compatible reference.
+        reference: the normalised shape, None in an iteration that was loaded.
+        error: why there is no replica.
+        depth: difference of the depth pictures; NaN without a replica and for drawings.
     """
 
     name: str

@@ -13,7 +13,12 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Transform:
-    """A uniform scale about a centre: ``normalised = (original - centre) * scale``."""
+    """A uniform scale about a centre: ``normalised = (original - centre) * scale``.
+
+    Attributes:
+        centre: (3,), of a drawing (2,).
+        scale: a positive factor.
+    """
 
     centre: tuple[float, ...]
     scale: float

@@ -15,7 +15,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """Filled regions in the plane, black on white: a shapely polygon or several, y up."""
+    """Filled regions in the plane, black on white.
+
+    Attributes:
+        geometry: a shapely polygon or several, y up. Raises ValueError for one without area.
+    """
 
     geometry: shapely.Polygon | shapely.MultiPolygon
 

@@ -10,8 +10,14 @@ from numba import njit
 from shapewright.shapes.arrays import Floats, Ints
 from shapewright.shapes.slivers import SLIVER as LENGTH
 
-_PLANE, _ROUNDING = 1e-8, 1e-15
-_LEAF, _DEPTH = 4, 64
+_PLANE = 1e-8
+"""Distance up to which a point is on a plane, of an extent of 1: a tenth of the rounding of single precision."""
+_ROUNDING = 1e-15
+"""Rounding of a normal in double precision, a few units in the last place (2.2e-16)."""
+_LEAF = 4
+"""Triangles in a leaf of the tree."""
+_DEPTH = 64
+"""Levels of the tree, at most."""
 
 
 def crossing_pairs(triangles: Floats) -> Ints:

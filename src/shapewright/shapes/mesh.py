@@ -19,9 +19,12 @@ if TYPE_CHECKING:
 class Mesh:
     """Triangles in space; closed or soup alike.
 
-    vertices: (V, 3) float64, Y up, front towards +Z.
-    faces: (F, 3) int64, indices of vertices.
-    face_labels: (F,) int64, index into label_names, -1 for a face without label; None when nothing is labelled.
+    Attributes:
+        vertices: (V, 3) float64, Y up, front towards +Z.
+        faces: (F, 3) int64, indices of vertices.
+        face_labels: (F,) int64, index into label_names, -1 for a face without label; None when nothing is labelled.
+        label_names: the labels.
+
     Raises ValueError for arrays of another form, vertices that are not finite, or faces that point at no vertex.
     """
 

@@ -1,4 +1,4 @@
-"""Slivers, triangles without height, and how to be rid of them."""
+"""Slivers: triangles without height, and their removal."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ SLIVER = 1e-6
 """The height below which a triangle is a sliver, as a part of its mesh's largest extent: a file of single precision
 hardly tells its corners from a line, and its normal not at all."""
 
-_PASSES, _NEIGHBOURS = 12, 5
+_PASSES = 12
+"""Times that all slivers are tried, at most."""
+_NEIGHBOURS = 5
+"""Thin neighbours that are flipped first, at most."""
 
 
 def heights(triangles: Floats) -> Floats:
@@ -31,7 +34,7 @@ def has_slivers(triangles: Floats, least: float) -> bool:
 
 
 def without_slivers(vertices: Floats, faces: Ints, owners: Ints, least: float) -> tuple[Floats, Ints, Ints]:
-    """Vertices, faces and the owners of faces, where faces less high than ``least`` are gone as far as possible.
+    """Vertices, faces and the owners of faces, with as few faces less high than ``least`` as possible.
 
     The corner of a flat face all but lies on its longest edge: the neighbour there is divided at that corner instead;
     where that does not help, the shortest edge is closed. The surface moves by about ``least`` at most.
@@ -54,7 +57,7 @@ class _Faces:
         self.alive = np.ones(len(faces), dtype=bool)
 
     def improve(self) -> bool:
-        """Go once over all slivers, the flattest first; says whether any could be helped."""
+        """Try once to remove each sliver, the flattest first; returns whether any was removed."""
         low = np.where(self.alive, heights(self.vertices[self.faces]), np.inf)
         helped = False
         for i in np.argsort(low)[: int((low < self.least).sum())].tolist():
@@ -70,7 +73,7 @@ class _Faces:
         return [int(i) for i in np.nonzero(found)[0]]
 
     def flip(self, i: int, further: int) -> bool:
-        """Divide the neighbour at the longest edge of face i at the corner across; says whether that could be done.
+        """Divide the neighbour at the longest edge of face i at the corner across; returns whether it was done.
 
         Where it does not help because the neighbour is thin too, that one is flipped first, ``further`` times.
         """
@@ -94,7 +97,7 @@ class _Faces:
         return True
 
     def close(self, i: int) -> bool:
-        """Move one end of the shortest edge of face i onto the other, if the surface about stays; says if it does."""
+        """Move one end of the shortest edge of face i onto the other, if the surface stays; returns whether it did."""
         a, b, _ = self._turned(i, longest=False)
         for gone, kept in ((a, b), (b, a)):
             moved = [j for j in self.around(gone) if kept not in self.faces[j]]

@@ -17,10 +17,15 @@ from shapewright.shapes.slivers import SLIVER, heights
 class Soundness:
     """What is right and wrong with a mesh; ``sound`` says whether all is right.
 
-    closed: every edge has a face on either side. manifold: no edge has more than two faces, and the faces around a
-    vertex are one fan. oriented: neighbouring faces are wound alike, and, if the mesh is closed, counter-clockwise
-    seen from outside (its volume is positive). self_intersections: pairs of faces that cross or overlap. slivers: faces
-    without height. components: parts of the surface that share no edge; a hollow counts. triangles: faces.
+    Attributes:
+        closed: every edge has a face on either side.
+        manifold: no edge has more than two faces, and the faces around a vertex are one fan.
+        oriented: neighbouring faces are wound alike; those of a closed mesh are counter-clockwise seen from outside, so
+            that its volume is positive.
+        self_intersections: pairs of faces that cross or overlap.
+        slivers: faces without height.
+        components: parts of the surface that share no edge; a hollow counts.
+        triangles: number of faces.
     """
 
     closed: bool

@@ -25,18 +25,18 @@ MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF")
 MESHES = tuple(f".{name.lower()}" for name in MESH_FORMATS)
 EXTENSIONS = tuple(sorted((*MESHES, *_DRAWINGS)))
 
-# trimesh would read zeros or whole numbers in place of the coordinates.
 _COMPRESSIONS = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"}
-# Triangles that all cover less than this share of the squared extent show in no picture.
+"""Extensions of glTF for which trimesh reads zeros or whole numbers in place of the coordinates."""
 _LEAST_AREA = 1e-12
+"""Share of the squared extent: a shape whose triangles all cover less shows in no picture."""
 
 
 def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
     """The triangles of a file in one mesh, or its drawing, and notes on what of it was left out.
 
-    Polygons are triangulated, scenes flattened; materials and textures are not looked at. Triangles stay as they are:
-    inward, doubled, without thickness. Left out are vertices that no triangle uses and, with a note, triangles with a
-    corner that is not finite. Raises UnreadableError, with the reason, where nothing that could be seen remains.
+    Polygons are triangulated and scenes flattened; materials and textures are ignored. Triangles stay unchanged,
+    inward, doubled or flat. The reader leaves out vertices that no triangle uses and, with a note, triangles with a
+    corner that is not finite. Raises UnreadableError, with the reason, where nothing remains that could be seen.
     """
     kind = path.suffix.lower()
     if kind not in EXTENSIONS:

@@ -14,7 +14,7 @@ from shapewright.references.errors import UnreadableError
 from shapewright.shapes import Drawing
 
 MOST = 1024
-"""Larger pictures are reduced to so many pixels along their longer side."""
+"""Pixels along the longer side; a larger picture is reduced to this size. A disc as large is outlined in 60 ms."""
 _SLACK = 0.3
 """Pixels that an outline may be simplified by: less than half a pixel, so it stays between a dark and a light one."""
 

@@ -9,16 +9,18 @@ import numpy as np
 from shapewright.references.errors import UnreadableError
 from shapewright.shapes import Floats, Ints
 
-# A corner that turns back by less than this share of the polygon's area does not spoil a fan that anyone could see.
 _REFLEX = 1e-6
+"""Share of a polygon's area. A corner that turns back by less spoils no fan that anyone could see."""
 
 
 @dataclass(frozen=True, eq=False)
 class Polygons:
     """The polygons of a file.
 
-    vertices: (V, 3) float64. corners: (C,) int64, the vertices of every polygon, one polygon after the other.
-    counts: (P,) int64, the number of corners of each; they add up to C.
+    Attributes:
+        vertices: (V, 3) float64.
+        corners: (C,) int64, the vertices of every polygon, one polygon after the other.
+        counts: (P,) int64, the number of corners of each polygon; their sum is C.
     """
 
     vertices: Floats

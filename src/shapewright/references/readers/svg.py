@@ -13,17 +13,18 @@ from shapewright.references.errors import UnreadableError
 from shapewright.shapes import Drawing, Floats
 
 _STEPS = 16
-"""Chords to a curve of a path."""
+"""Chords to a curve of a path: an arc of 90 degrees departs from them by 0.1 % of its radius."""
 _CAPS = {"butt": "flat", "round": "round", "square": "square"}
 _JOINS = {"miter": "mitre", "round": "round", "bevel": "bevel"}
 _MITRE = 4.0
+"""The limit of a mitre where none is given (SVG 2, "stroke-miterlimit")."""
 
 
 def read_svg(data: bytes) -> tuple[Drawing, tuple[str, ...]]:
     """The dark area of a vector drawing, in its own units, y up, with notes on what was left out.
 
-    Shapes are painted one over the other: dark ones add, light ones cut. Text, pictures, clips, masks and filters are
-    not looked at. Raises UnreadableError where nothing dark remains.
+    Shapes are painted one over the other: dark ones add to the area, light ones cut from it. Text, pictures, clips,
+    masks and filters are ignored. Raises UnreadableError where nothing dark remains.
     """
     from svgelements import SVG, Group, Image, Shape, Text
 
@@ -48,7 +49,7 @@ def read_svg(data: bytes) -> tuple[Drawing, tuple[str, ...]]:
 
 
 def _viewport(parsed: Any) -> tuple[float, float, float]:
-    """How the viewBox is shown, as a scale and the place of the origin; as it is where it is stretched."""
+    """How the viewBox is shown: a scale, and the place of the origin. A stretched one counts as not scaled."""
     from svgelements import Matrix
 
     shown = Matrix(parsed.viewbox_transform or "")
@@ -88,7 +89,7 @@ def _is_dark(colour: Any, values: Any, kind: str) -> bool | None:
         return True
     if colour is None or colour.value is None or colour.opacity * float(values.get(f"{kind}-opacity") or 1.0) < 0.5:
         return None
-    return bool(0.299 * colour.red + 0.587 * colour.green + 0.114 * colour.blue < 128.0)
+    return bool(0.299 * colour.red + 0.587 * colour.green + 0.114 * colour.blue < 128.0)  # luma of ITU-R BT.601
 
 
 def _lines(element: Any) -> Iterator[Floats]:
