@@ -10,13 +10,13 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.fitting.learning import Lesson, learn, limits_of
+from shapewright.fitting.replicas import refined_from
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Prediction
 from shapewright.prediction.inference import Metrics, score
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
-from shapewright.search.search import refine
 from shapewright.settings import Cameras, Settings
 
 REFINED = 100
@@ -56,10 +56,10 @@ def evaluate(
         chosen = replace(settings, seed=seed)
         stages = Stages(progress)
         with Workers(procedure, chosen.workers, limits_of(chosen)) as crew:
-            lesson = learn(procedure, crew, chosen, stages)
+            lesson = learn(crew, chosen, stages)
             stages.end()
             seconds = sum(stages.seconds.values())
-            metrics = None if chosen.refine == "off" else _refined(procedure, crew, lesson, chosen, stages, refined)
+            metrics = None if chosen.refine == "off" else _refined(crew, lesson, chosen, stages, refined)
         stages.end()
         trials.append(Trial(chosen, lesson.predictor.metrics, metrics, seconds))
     return trials
@@ -87,26 +87,12 @@ def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, 
     return table
 
 
-def _refined(
-    procedure: Procedure, crew: Workers, lesson: Lesson, settings: Settings, stages: Stages, count: int
-) -> Metrics:
+def _refined(crew: Workers, lesson: Lesson, settings: Settings, stages: Stages, count: int) -> Metrics:
     """The metrics after refinement, on the first ``count`` held-out rows."""
     held_out = lesson.held_out.take(np.arange(min(count, len(lesson.held_out))))
     shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
     judge = Judge.of(shapes, settings)
     prediction = lesson.predictor.infer(held_out.shapes)
     _, fields = judge.nearest(crew.build(prediction.decode()))
-    stages.begin("refine", 1)
-    found = refine(
-        prediction,
-        crew,
-        judge.measure(range(len(fields)), fields),
-        lesson.budget(settings),
-        settings.seed,
-        goal=judge.goal,
-        progress=stages.step,
-        enough=judge.enough,
-        parts=judge.parts,
-        doubt=judge.surprise_cost,
-    )
-    return score(Prediction.of(procedure.space, found), held_out.targets, held_out.active)
+    refined = refined_from(prediction, crew, judge, range(len(fields)), fields, lesson, stages)
+    return score(Prediction.of(crew.procedure.space, refined), held_out.targets, held_out.active)

@@ -7,7 +7,9 @@ import numpy as np
 from shapewright.building import Workers
 from shapewright.comparison.light_field.aligned import AlignedCost
 from shapewright.prediction.predictor import Predictor
+from shapewright.progress import Stages
 from shapewright.references import Collection
+from shapewright.settings import Searching
 from shapewright.shapes import Mesh, Shape
 from shapewright.threads import in_threads
 
@@ -15,11 +17,17 @@ _CLEARLY = 0.9
 """A turn is made only if it lowers the cost to this share: what fits equally well either way stays as it is."""
 
 
-def quarter_turns(references: Collection, predictor: Predictor, crew: Workers) -> list[int]:
+def quarter_turns(
+    references: Collection, predictor: Predictor, crew: Workers, settings: Searching, stages: Stages
+) -> list[int]:
     """How many quarter turns, 0 to 3, bring each reference to face as the procedure's shapes do.
 
-    Each mesh is predicted and built in all four positions; the costs of the replicas decide.
+    Each mesh is predicted and built in all four positions; the costs of the replicas decide. Drawings are not turned.
+    Nothing is turned where the settings take the facing as given.
     """
+    if settings.facing == "given" or references.kind is not Mesh:
+        return [0] * len(references)
+    stages.begin("face", len(references))
     costs = np.array(
         [_costs(references.turned([quarters] * len(references)), predictor, crew) for quarters in range(4)]
     )

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from shapewright.building import Build, Limits, Workers, describe_failures
+from shapewright.fitting.adaptive import around
 from shapewright.fitting.sensitivity import without_effect
-from shapewright.parameters import Parameters
+from shapewright.fitting.start import Start
+from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.augmentation import augmented
 from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset, shapes_of, split
 from shapewright.prediction.devices import pick
@@ -29,12 +31,19 @@ from shapewright.shapes import Drawing, Shape
 
 FIRST = 256
 """Samples that are built and drawn before all others, for the first answer."""
-Watcher = Callable[[Dataset], object]
 
 
 @dataclass(frozen=True, eq=False)
 class Lesson:
-    """A trained predictor, the samples it learned from and was measured on, and what is worth recording."""
+    """What was learned of a procedure.
+
+    Attributes:
+        predictor: the trained one.
+        training: the samples that it learned from.
+        validation: the samples that its spreads were calibrated on.
+        held_out: the samples that it was measured on.
+        facts: what a run records of the samples and of the training.
+    """
 
     predictor: Predictor
     training: Dataset
@@ -57,41 +66,35 @@ def train(procedure: Procedure, settings: Settings | None = None, progress: List
     settings = settings or Settings()
     stages = Stages(progress)
     with Workers(procedure, settings.workers, limits_of(settings)) as crew:
-        lesson = learn(procedure, crew, settings, stages)
+        lesson = learn(crew, settings, stages)
     stages.end()
     return lesson.predictor
 
 
-def learn(
-    procedure: Procedure,
-    crew: Workers,
-    settings: Settings,
-    stages: Stages,
-    previous: Predictor | None = None,
-    watch: Watcher | None = None,
-    kind: type[Shape] | None = None,
-) -> Lesson:
+def learn(crew: Workers, settings: Settings, stages: Stages, start: Start | None = None) -> Lesson:
     """Train on random samples of the whole space.
 
-    previous: a predictor of an earlier version of the procedure, whose network and cameras are gone on from. watch:
-    called with the first FIRST samples as soon as they are drawn. kind: what the procedure is to build, Mesh or
-    Drawing; by default what it builds.
+    start: of a fit. Its references say whether the procedure is to build meshes or drawings; by default it may build
+    either. Its predictor is trained further. ``stages`` gets a first answer for its references: the known parameters
+    at once, or those of the most similar of the first samples.
     """
-    space = procedure.space
+    space, previous = crew.procedure.space, start.predictor if start else None
+    if start and start.resumed:
+        stages.answer(start.answer, "carried over")
     schedule = _schedule(settings, previous)
     count = min(settings.samples, settings.warm_samples) if previous else settings.samples
     vectors = space.sample(count, seed=settings.seed)
     stages.begin("sample", len(vectors))
     builds = crew.build(vectors[:FIRST], give_up=True)
-    kind = kind or kind_of(builds)
+    kind = start.references.kind if start else kind_of(builds)
     cameras = _cameras(kind, settings, previous)
-    first = _draw(procedure, builds, cameras, settings, kind)
-    if watch:
-        watch(first)
+    first = _draw(space, builds, cameras, settings, kind)
+    if start and not start.resumed:
+        stages.answer(start.most_similar(first, settings.workers), "most similar samples")
     builds += crew.build(vectors[FIRST:], lambda done, total: stages.step(FIRST + done, FIRST + total))
     inert = without_effect(space, shapes_of(builds, kind)[0], crew.build, settings.seed, settings.workers)
     stages.begin("render", len(vectors))
-    data = join([first, _draw(procedure, builds[FIRST:], cameras, settings, kind)]) if builds[FIRST:] else first
+    data = join([first, _draw(space, builds[FIRST:], cameras, settings, kind)]) if builds[FIRST:] else first
     parts = [data.take(rows) for rows in split(len(data), settings.seed)]
     if settings.augment:
         parts[0] = augmented(parts[0], settings.seed, settings.workers)
@@ -104,18 +107,18 @@ def learn(
         "cameras": {"before": _places(cameras)},
         "device": pick(schedule.device).type,
     }
-    return _train(procedure, parts, facts, settings, schedule, stages, previous)
+    return _train(space, parts, facts, settings, schedule, stages, previous)
 
 
 def learn_more(
-    procedure: Procedure,
-    crew: Workers,
-    settings: Settings,
-    stages: Stages,
-    lesson: Lesson,
-    vectors: Sequence[Parameters],
+    crew: Workers, settings: Settings, stages: Stages, lesson: Lesson, centres: Sequence[Parameters], number: int
 ) -> Lesson:
-    """Go on training with further samples; those that predictions are measured on stay the same."""
+    """Train further with samples around the centres; those that predictions are measured on stay the same.
+
+    number: of the round, from 0.
+    """
+    space, seed = crew.procedure.space, settings.seed + number + 1
+    vectors = around(space, centres, lesson.predictor.metrics, settings.round_samples, seed)
     stages.begin("sample", len(vectors))
     builds = crew.build(vectors, stages.step)
     stages.begin("render", len(vectors))
@@ -123,13 +126,13 @@ def learn_more(
     fresh = [build for build in builds if build.shape is not None and tuple(build.parameters.values()) not in seen]
     if not fresh:
         return lesson
-    added = _draw(procedure, fresh, lesson.predictor.cameras, settings, lesson.training.kind)
+    added = _draw(space, fresh, lesson.predictor.cameras, settings, lesson.training.kind)
     if settings.augment:
         added = augmented(added, settings.seed + len(lesson.training), settings.workers)
     training = join([lesson.training, added])
     parts = [training, lesson.validation, lesson.held_out]
     schedule = _schedule(settings, lesson.predictor)
-    return _train(procedure, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
+    return _train(space, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
 
 
 def limits_of(settings: Building) -> Limits:
@@ -138,7 +141,7 @@ def limits_of(settings: Building) -> Limits:
 
 
 def _train(
-    procedure: Procedure,
+    space: ParameterSpace,
     parts: Sequence[Dataset],
     facts: dict[str, Any],
     settings: Settings,
@@ -156,14 +159,14 @@ def _train(
         stages.step(epoch.epoch, schedule.epochs, f"validation loss {epoch.validation:.3f}", losses)
 
     initial = previous.network if previous else None
-    trained = train_network(procedure.space, training, validation, schedule, tell, settings.workers, initial)
+    trained = train_network(space, training, validation, schedule, tell, settings.workers, initial)
     held_out = held_out.seen_by(trained.cameras, settings.workers)
     predictor = Predictor(
-        procedure.space,
+        space,
         trained.network,
         trained.cameras,
         settings.image_size,
-        measure(trained.network, procedure.space, held_out),
+        measure(trained.network, space, held_out),
         trained.curve,
         sum(map(len, parts)),
         settings.workers,
@@ -182,7 +185,7 @@ def _cameras(kind: type[Shape], settings: Settings, previous: Predictor | None) 
 
 
 def _draw(
-    procedure: Procedure,
+    space: ParameterSpace,
     builds: Sequence[Build],
     cameras: Sequence[Camera],
     settings: Settings,
@@ -190,7 +193,7 @@ def _draw(
 ) -> Dataset:
     good, shapes = shapes_of(builds, kind)
     vectors = [build.parameters for build in good]
-    return make_dataset(procedure.space, vectors, shapes, cameras, settings.image_size, settings.workers)
+    return make_dataset(space, vectors, shapes, cameras, settings.image_size, settings.workers)
 
 
 def _schedule(settings: Settings, previous: Predictor | None) -> Schedule:

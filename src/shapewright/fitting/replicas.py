@@ -1,0 +1,116 @@
+"""The replicas of a fit: predicted, searched for, and kept where they are nearer than those before."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+
+import numpy as np
+
+from shapewright.building import Build, Workers
+from shapewright.fitting.learning import Lesson
+from shapewright.fitting.start import Start
+from shapewright.judging.judge import Judge, Rows
+from shapewright.parameters import Parameters, Prediction
+from shapewright.progress import Stages
+from shapewright.search.search import refine
+from shapewright.shapes import Floats, Ints
+
+_NEAR = 0.5
+"""Share of the threshold up to which parameters that are known already are not searched for again."""
+
+
+@dataclass(frozen=True, eq=False)
+class Replicas:
+    """The nearest build so far for each of N references.
+
+    Attributes:
+        builds: None where nothing was tried yet.
+        distances: by the judge, (N,); NaN where there is nothing to measure.
+        fields: the light field in which the two differ least, (N,).
+    """
+
+    builds: tuple[Build | None, ...]
+    distances: Floats
+    fields: Ints
+
+    @classmethod
+    def none(cls, count: int) -> Replicas:
+        return cls((None,) * count, np.full(count, np.nan), np.zeros(count, dtype=np.int64))
+
+    @property
+    def parameters(self) -> list[Parameters]:
+        """Of the builds that there are."""
+        return [build.parameters for build in self.builds if build]
+
+    def tried(self, vectors: Sequence[Parameters], crew: Workers, judge: Judge) -> Replicas:
+        """Build one vector for each reference, and keep it where it is nearer."""
+        builds = crew.build(vectors)
+        distances, fields = judge.nearest(builds)
+        closer = (distances < self.distances) | (np.isnan(self.distances) & ~np.isnan(distances))
+        better = [old is None or bool(nearer) for old, nearer in zip(self.builds, closer, strict=True)]
+        pairs = zip(better, builds, self.builds, strict=True)
+        nearest = tuple(new if is_better else old for is_better, new, old in pairs)
+        return Replicas(nearest, np.where(better, distances, self.distances), np.where(better, fields, self.fields))
+
+
+def resume(start: Start, crew: Workers, judge: Judge) -> Replicas:
+    """The replicas of an earlier iteration, built again; default parameters where it had none."""
+    replicas = Replicas.none(len(start.known))
+    if not start.resumed:
+        return replicas
+    return replicas.tried([known or crew.procedure.space.defaults for known in start.known], crew, judge)
+
+
+def replicate(
+    crew: Workers, judge: Judge, lesson: Lesson, stages: Stages, replicas: Replicas, new: AbstractSet[str] | None = None
+) -> Replicas:
+    """Try the predicted parameters, and search from there for references whose replica was not near before.
+
+    new: see ``refine``.
+    """
+    settings, known = judge.settings, [build.parameters if build else None for build in replicas.builds]
+    rows = np.flatnonzero(~(replicas.distances <= _NEAR * judge.metric.threshold))
+    stages.begin("predict", len(known))
+    prediction = lesson.predictor.infer([reference.shape for reference in judge.references])
+    stages.begin("replicate", 1)
+    replicas = replicas.tried(prediction.decode(), crew, judge)
+    vectors = replicas.parameters
+    stages.answer(dict(zip(judge.references.names, vectors, strict=True)), "predicted")
+    if settings.refine == "off" or not len(rows):
+        return replicas
+    fields, before = replicas.fields[rows], [known[i] for i in rows]
+    refined = refined_from(prediction.take(rows), crew, judge, rows, fields, lesson, stages, before, new)
+    for i, values in zip(rows, refined, strict=True):
+        vectors[i] = values
+    return replicas.tried(vectors, crew, judge)
+
+
+def refined_from(
+    prediction: Prediction,
+    crew: Workers,
+    judge: Judge,
+    rows: Rows,
+    fields: Rows,
+    lesson: Lesson,
+    stages: Stages,
+    known: Sequence[Parameters | None] | None = None,
+    new: AbstractSet[str] | None = None,
+) -> list[Parameters]:
+    """Search from a prediction for some references. rows: of these; fields: to go by; known, new: see ``refine``."""
+    stages.begin("refine", 1)
+    return refine(
+        prediction,
+        crew,
+        judge.measure(rows, fields),
+        lesson.budget(judge.settings),
+        judge.settings.seed,
+        known,
+        judge.goal,
+        stages.step,
+        new=new,
+        enough=judge.enough,
+        parts=judge.parts,
+        doubt=judge.surprise_cost,
+    )

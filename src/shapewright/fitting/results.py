@@ -1,0 +1,126 @@
+"""The results of a fit: judged, grouped, and recorded as an iteration."""
+
+from __future__ import annotations
+
+import math
+import platform
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from importlib.metadata import version
+from typing import Any
+
+from shapewright.building import Build
+from shapewright.comparison.grouping import Group
+from shapewright.fitting.learning import Lesson
+from shapewright.fitting.replicas import Replicas
+from shapewright.judging.judge import Judge
+from shapewright.parameters import to_record
+from shapewright.procedures import Procedure
+from shapewright.progress import Stages
+from shapewright.references import Collection
+from shapewright.runs.iteration import Iteration, draw_pictures
+from shapewright.runs.result import Result
+
+VERSIONED = ("shapewright", "numpy", "torch", "numba", "manifold3d", "scikit-learn", "trimesh")
+"""Packages on which results depend."""
+
+
+def judged(
+    procedure: Procedure, judge: Judge, replicas: Replicas, stages: Stages
+) -> tuple[tuple[Result, ...], tuple[Group, ...]]:
+    """The result of each reference, and the groups of those that are not compatible."""
+    stages.begin("compare", len(judge.references))
+    builds = [build for build in replicas.builds if build]
+    measures = judge.measures(builds, replicas.distances)
+    compatible = judge.compatible(measures)
+    groups = judge.groups(compatible)
+    group_of = {name: i for i, group in enumerate(groups) for name in group.members}
+    results = tuple(
+        Result(
+            name=reference.name,
+            path=reference.path,
+            parameters=build.parameters,
+            active=procedure.space.active(build.parameters),
+            at_limit=procedure.space.at_limit(build.parameters) if build.shape else (),
+            replica=build.shape,
+            distance=its.distance,
+            iou=its.iou,
+            chamfer=its.chamfer,
+            compatible=bool(same),
+            group=group_of.get(reference.name),
+            reference=reference.shape,
+            error=_error(build, its.distance),
+            depth=its.depth,
+        )
+        for reference, build, its, same in zip(judge.references, builds, measures, compatible, strict=True)
+    )
+    return results, groups
+
+
+def recorded(
+    procedure: Procedure,
+    judge: Judge,
+    lesson: Lesson,
+    results: tuple[Result, ...],
+    groups: tuple[Group, ...],
+    turns: Sequence[int],
+    stages: Stages,
+) -> Iteration:
+    """The iteration, with pictures of its results. turns: quarter turns of the references about the up axis."""
+    stages.begin("picture", 1)
+    pictures = draw_pictures(results, judge.settings.workers)
+    stages.end()
+    return Iteration(
+        results=results,
+        metric=judge.metric,
+        groups=groups,
+        settings=judge.settings,
+        seconds=stages.seconds,
+        procedure=_procedure(procedure),
+        source=procedure.source,
+        collection=_collection(judge.references),
+        metrics=_metrics(judge.references, lesson, turns, stages),
+        versions={"python": platform.python_version(), **{name: version(name) for name in VERSIONED}},
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        pictures=pictures,
+        predictor=lesson.predictor,
+    )
+
+
+def _procedure(procedure: Procedure) -> Mapping[str, Any]:
+    return {
+        "name": procedure.name,
+        "path": str(procedure.path) if procedure.path else None,
+        "digest": procedure.digest,
+        "parameters": [to_record(parameter) for parameter in procedure.space],
+    }
+
+
+def _collection(references: Collection) -> Mapping[str, Any]:
+    return {
+        "source": references.source,
+        "origins": list(references.origins),
+        "up": references.up,
+        "front": references.front,
+        "count": len(references),
+        "skipped": {str(path): reason for path, reason in references.skipped.items()},
+    }
+
+
+def _metrics(references: Collection, lesson: Lesson, turns: Sequence[int], stages: Stages) -> Mapping[str, Any]:
+    predictor = lesson.predictor
+    return {
+        "samples": predictor.samples,
+        **lesson.facts,
+        "first_answer": stages.first_answer,
+        "turned": {name: 90 * turn for name, turn in zip(references.names, turns, strict=True) if turn},
+        "epochs": len(predictor.curve),
+        "curve": [vars(epoch) for epoch in predictor.curve],
+        "validation": predictor.metrics,
+    }
+
+
+def _error(build: Build, distance: float) -> str | None:
+    if build.failure:
+        return str(build.failure)
+    return "so thin that no view shows it: it cannot be compared" if math.isnan(distance) else None

@@ -1,0 +1,57 @@
+"""What a fit knows of its references before it learns: from an earlier iteration, or from the first samples."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from shapewright.parameters import Parameters, ParameterSpace, Scalar
+from shapewright.prediction.dataset import Dataset
+from shapewright.prediction.lookup import nearest
+from shapewright.prediction.predictor import Predictor
+from shapewright.references import Collection
+from shapewright.rendering.raster import render
+from shapewright.runs.iteration import Iteration
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Where a fit starts.
+
+    Attributes:
+        references: those to fit.
+        resumed: whether there is an earlier iteration.
+        known: the parameters that it found for each reference, in the present space; None where it did not have one.
+        predictor: the one that it trained.
+        new: names of scalars that it did not have, or not in this Range; None where it did not search. Of other kinds
+            all likely values are tried anyway.
+    """
+
+    references: Collection
+    resumed: bool
+    known: tuple[Parameters | None, ...]
+    predictor: Predictor | None
+    new: frozenset[str] | None
+
+    @classmethod
+    def of(cls, references: Collection, space: ParameterSpace, previous: Iteration | None) -> Start:
+        """Without an earlier iteration nothing is known."""
+        if previous is None:
+            return cls(references, False, (None,) * len(references), None, None)
+        old = {result.name: result.parameters for result in previous}
+        known = tuple(space.carry(values) if (values := old.get(name)) else None for name in references.names)
+        if previous.predictor is None or previous.settings.refine == "off":
+            return cls(references, True, known, previous.predictor, None)
+        before = previous.predictor.space.parameters
+        new = frozenset(p.name for p in space if isinstance(p, Scalar) and p not in before)
+        return cls(references, True, known, previous.predictor, new)
+
+    @property
+    def answer(self) -> dict[str, Parameters]:
+        """The known parameters, by the names of their references."""
+        return {name: values for name, values in zip(self.references.names, self.known, strict=True) if values}
+
+    def most_similar(self, samples: Dataset, threads: int | None) -> dict[str, Parameters]:
+        """The parameters of the sample that looks most like each reference."""
+        shapes = [reference.shape for reference in self.references]
+        rows = nearest(render(shapes, samples.cameras, samples.size, threads=threads), samples.images)
+        return {name: samples.parameters[row] for name, row in zip(self.references.names, rows, strict=True)}
