@@ -1,5 +1,6 @@
 """The options of the command line are those that the settings' fields describe."""
 
+import inspect
 import subprocess
 import sys
 from typing import get_args, get_type_hints
@@ -38,6 +39,12 @@ def test_fit_offers_settings_of_every_group():
     assert "default: 15; of the preset paper: 50" in offered["epochs"][1].help
     assert "default: 0.18" in offered["threshold"][1].help
     assert "default: 5.0" in options(studio)["shape_seconds"][1].help
+
+
+def test_evaluate_measures_the_search_on_as_many_samples_as_the_function():
+    from shapewright.fitting.evaluation import REFINED
+
+    assert inspect.signature(evaluate).parameters["refined"].default == REFINED
 
 
 def test_options_that_are_given_change_the_preset_and_others_do_not(monkeypatch, tmp_path):

@@ -20,7 +20,7 @@ from shapewright.progress import Progress as Event
 from shapewright.settings import Settings
 
 if TYPE_CHECKING:
-    from shapewright.fitting.evaluation import Trial
+    from shapewright.fitting.evaluation import Evaluation
     from shapewright.judging.calibration import Calibration
     from shapewright.runs.changes import Comparison
     from shapewright.runs.iteration import Iteration
@@ -164,21 +164,21 @@ def print_calibration(path: Path, found: Calibration) -> None:
     out.print("[dim]use it with: shapewright fit PROCEDURE REFERENCES --marks[/]")
 
 
-def print_trials(trials: Sequence[Trial]) -> None:
-    """Errors by parameter, of the network alone and after refinement; with several seeds their range as well."""
+def print_evaluations(evaluations: Sequence[Evaluation]) -> None:
+    """Errors by parameter, of the network alone and after the search; with several seeds their range as well."""
     from shapewright.fitting.evaluation import summary
 
-    first = trials[0].metrics
+    first = evaluations[0].metrics
     table = Table(
         "parameter", "kind", "measure", "network", "refined", "within 50 %, 90 %", box=None, header_style="dim"
     )
-    for name, found in summary(trials).items():
+    for name, ranges in summary(evaluations).items():
         measure = "MAE" if first[name]["kind"] == "scalar" else "F1"
-        cells = [_range(*found[label]) if label in found else "" for label in ("network", "refined")]
+        cells = [_range(*ranges[label]) if label in ranges else "" for label in ("network", "refined")]
         shares = [f"{first[name][key]:.2f}" for key in ("within50", "within90") if key in first[name]]
         table.add_row(escape(name), first[name]["kind"], measure, *cells, ", ".join(shares))
     out.print(table)
-    out.print(f"[dim]{sum(trial.seconds for trial in trials) / len(trials):.0f} s to train[/]", highlight=False)
+    out.print(f"[dim]{sum(e.seconds for e in evaluations) / len(evaluations):.0f} s to train[/]", highlight=False)
 
 
 def _range(mean: float, low: float, high: float) -> str:

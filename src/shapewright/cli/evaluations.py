@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from shapewright.cli.console import out, print_json, print_trials, progress_bars
+from shapewright.cli.console import out, print_evaluations, print_json, progress_bars
 from shapewright.cli.options import Json, PresetOption, ProcedureArgument, with_settings
 from shapewright.procedures import load_procedure
 from shapewright.settings import Settings
@@ -19,15 +19,15 @@ def evaluate(
     chosen: Mapping[str, Any],
     seeds: Annotated[int, typer.Option(min=1, help="Trainings, each with another seed.")] = 1,
     preset: PresetOption = "fast",
-    refined: Annotated[int, typer.Option(min=1, help="Held-out samples that refinement is measured on.")] = 100,
+    refined: Annotated[int, typer.Option(min=1, help="Held-out samples that the search is measured on.")] = 100,
     compare: Annotated[
         Literal["cameras", "views", "both"] | None,
         typer.Option(help="cameras: fixed against learned; views: 1, 2, 3 and 5 cameras; both: all combinations."),
     ] = None,
     json: Json = False,
 ) -> None:
-    """Measure how well the parameters of a procedure are found, on samples that were held out."""
-    from shapewright.fitting.evaluation import evaluate as run_trials
+    """Measure how well the parameters of a procedure are predicted, on samples that were held out."""
+    from shapewright.fitting.evaluation import evaluate as train_and_measure
     from shapewright.fitting.evaluation import summary, variants
 
     settings = Settings.preset(preset, **chosen)
@@ -35,13 +35,14 @@ def evaluate(
     records = []
     for variant in variants(settings, compare):
         with progress_bars() as listen:
-            trials = run_trials(author, variant, range(seeds), listen, refined)
-        seconds = [trial.seconds for trial in trials]
-        record = {"cameras": variant.cameras, "views": variant.views, "parameters": summary(trials), "seconds": seconds}
+            results = train_and_measure(author, variant, range(seeds), listen, refined)
+        seconds = [result.seconds for result in results]
+        table = summary(results)
+        record = {"cameras": variant.cameras, "views": variant.views, "parameters": table, "seconds": seconds}
         records.append(record)
         if not json:
             if compare:
                 out.print(f"\n[bold]{variant.cameras} cameras, {variant.views}[/]", highlight=False)
-            print_trials(trials)
+            print_evaluations(results)
     if json:
         print_json({"variants": records} if compare else records[0])

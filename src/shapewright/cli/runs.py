@@ -79,11 +79,11 @@ def mark(
     from shapewright.runs.marks import mark as write_mark
 
     path = write_mark(run, name, judgement == "same")
-    found = _calibration(run)
+    calibration = _calibration(run)
     if json:
-        print_json({"path": str(path), **asdict(found)})
+        print_json({"path": str(path), **asdict(calibration)})
     else:
-        print_calibration(path, found)
+        print_calibration(path, calibration)
 
 
 def report(

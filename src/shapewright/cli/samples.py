@@ -19,7 +19,10 @@ from shapewright.shapes.files import Format
 def sample(
     procedure: ProcedureArgument,
     out_dir: Annotated[
-        Path, typer.Option("--out", help="Folder for the shapes; one that holds the first of them is gone on with.")
+        Path,
+        typer.Option(
+            "--out", help="Folder for the shapes. If it holds the first of them already, the command adds the others."
+        ),
     ],
     count: Annotated[int, typer.Option("-n", "--count", min=1, help="How many shapes.")] = 10,
     format: Annotated[Format, typer.Option(help="Kind of file; drawings are written as SVG.")] = "glb",
@@ -44,7 +47,7 @@ def sample(
                 lambda done, total: listen(Progress("sample", done, total)),
             )
     except KeyboardInterrupt:
-        err.print(f"stopped: what {MANIFEST} lists is whole; the same command goes on from there")
+        err.print(f"stopped: what {MANIFEST} lists is whole; the same command adds the others")
         raise typer.Exit(130) from None
     if samples.failures:
         err.print(f"[yellow]failed:[/] {escape(samples.failures)}", highlight=False)

@@ -1,4 +1,4 @@
-"""How well the parameters of a procedure can be found: the paper's table (section 5.1) for any procedure."""
+"""How well parameters are predicted: the paper's table (section 5.1) for any procedure."""
 
 from __future__ import annotations
 
@@ -20,17 +20,21 @@ from shapewright.references import Collection
 from shapewright.settings import Cameras, Settings
 
 REFINED = 100
-"""Held-out samples that refinement is measured on, at most, where no other number is asked for."""
-
+"""Most held-out samples that the search is measured on, where no other number is asked for."""
 VIEWS = (1, 2, 3, 5)
+"""Numbers of cameras that are compared."""
 CAMERAS: tuple[Cameras, ...] = get_args(Cameras)
 
 
 @dataclass(frozen=True)
-class Trial:
-    """One training and what it gave on held-out samples, none of which it has seen.
+class Evaluation:
+    """One training, measured on held-out samples, none of which it has seen.
 
-    metrics: of the network alone. refined: of the same rows after refinement, None where that is off.
+    Attributes:
+        settings: of the training, its seed among them.
+        metrics: of the network alone, by parameter; see ``prediction.inference.score``.
+        refined: of parameters after the search, on the first held-out samples; None where the search is off.
+        seconds: that the training took, building samples included.
     """
 
     settings: Settings
@@ -45,13 +49,13 @@ def evaluate(
     seeds: Sequence[int] | None = None,
     progress: Listener | None = None,
     refined: int = REFINED,
-) -> list[Trial]:
-    """A trial for each seed; by default one, with the settings' own seed. Raises ProcedureError as ``fit`` does.
+) -> list[Evaluation]:
+    """Train once for each seed, and measure; by default once, with the settings' own seed.
 
-    refined: held-out samples that refinement is measured on, at most.
+    refined: most held-out samples that the search is measured on. Raises ProcedureError as ``fit`` does.
     """
     settings = settings or Settings()
-    trials = []
+    evaluations = []
     for seed in [settings.seed] if seeds is None else seeds:
         chosen = replace(settings, seed=seed)
         stages = Stages(progress)
@@ -61,27 +65,27 @@ def evaluate(
             seconds = sum(stages.seconds.values())
             metrics = None if chosen.refine == "off" else _refined(crew, lesson, chosen, stages, refined)
         stages.end()
-        trials.append(Trial(chosen, lesson.predictor.metrics, metrics, seconds))
-    return trials
+        evaluations.append(Evaluation(chosen, lesson.predictor.metrics, metrics, seconds))
+    return evaluations
 
 
 def variants(settings: Settings, compared: Literal["cameras", "views", "both"] | None) -> list[Settings]:
     """The settings with each kind ("cameras") or number ("views") of cameras, or all combinations ("both")."""
-    found = [settings]
+    variants = [settings]
     if compared in ("views", "both"):
-        found = [replace(each, views=views) for each in found for views in VIEWS]
+        variants = [replace(variant, views=views) for variant in variants for views in VIEWS]
     if compared in ("cameras", "both"):
-        found = [replace(each, cameras=cameras) for each in found for cameras in CAMERAS]
-    return found
+        variants = [replace(variant, cameras=cameras) for variant in variants for cameras in CAMERAS]
+    return variants
 
 
-def summary(trials: Sequence[Trial]) -> dict[str, dict[str, tuple[float, float, float]]]:
-    """Per parameter and measure (mae, or f1; and refined) the mean over the trials, the least and the most."""
+def summary(evaluations: Sequence[Evaluation]) -> dict[str, dict[str, tuple[float, float, float]]]:
+    """By parameter, and by "network" or "refined": mean, least and largest MAE, or F1, over the evaluations."""
     table: dict[str, dict[str, tuple[float, float, float]]] = {}
-    for label, chosen in (("network", [t.metrics for t in trials]), ("refined", [t.refined for t in trials])):
-        for name in trials[0].metrics:
-            found = [m[name].get("mae", m[name].get("f1")) for m in chosen if m is not None and name in m]
-            values = [value for value in found if value is not None]
+    for label, chosen in (("network", [e.metrics for e in evaluations]), ("refined", [e.refined for e in evaluations])):
+        for name in evaluations[0].metrics:
+            errors = [m[name].get("mae", m[name].get("f1")) for m in chosen if m is not None and name in m]
+            values = [value for value in errors if value is not None]
             if values:
                 table.setdefault(name, {})[label] = (float(np.mean(values)), min(values), max(values))
     return table

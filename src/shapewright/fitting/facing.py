@@ -14,7 +14,7 @@ from shapewright.shapes import Mesh, Shape
 from shapewright.threads import in_threads
 
 _CLEARLY = 0.9
-"""A turn is made only if it lowers the cost to this share: what fits equally well either way stays as it is."""
+"""A turn is made only if it lowers the cost to this share: what fits about equally well both ways is not turned."""
 
 
 def quarter_turns(
