@@ -3,14 +3,17 @@
 import inspect
 import subprocess
 import sys
-from typing import get_args, get_type_hints
+from collections.abc import Mapping
+from typing import Any, get_args, get_type_hints
 
 import pytest
+import typer
 from typer.testing import CliRunner
 
 from shapewright.cli.evaluations import evaluate
 from shapewright.cli.fits import fit
 from shapewright.cli.main import app
+from shapewright.cli.options import with_settings
 from shapewright.cli.projects import demo
 from shapewright.cli.samples import sample
 from shapewright.cli.studio import studio
@@ -56,6 +59,26 @@ def test_options_that_are_given_change_the_preset_and_others_do_not(monkeypatch,
     assert CliRunner().invoke(app, ["studio", str(tmp_path), "--preset", "paper", "--epochs", "2"]).exit_code == 0
     (preferences,) = taken
     assert preferences.settings == Settings.preset("paper", epochs=2, shape_seconds=5.0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "chosen"),
+    [
+        ([], {"refine": "thorough"}),
+        (["--augment", "--views", "2"], {"refine": "thorough", "augment": True, "views": 2}),
+        (["--refine", "off", "--time-limit", "0.3"], {"refine": "off", "shape_seconds": 0.3}),
+    ],
+)
+def test_a_command_gets_what_was_given_and_its_own_defaults(arguments, chosen):
+    taken = []
+
+    @with_settings("augment", "refine", "views", "shape_seconds", refine="thorough")
+    def command(chosen: Mapping[str, Any]) -> None:
+        taken.append(chosen)
+
+    small = typer.Typer()
+    small.command()(command)
+    assert CliRunner().invoke(small, arguments).exit_code == 0 and taken == [chosen]
 
 
 def test_a_choice_that_is_none_is_a_usage_error():

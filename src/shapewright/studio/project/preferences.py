@@ -28,7 +28,7 @@ class Preferences:
 
     @staticmethod
     def described() -> Mapping[str, Field]:
-        """What each entry of ``record`` may be."""
+        """What each field of ``ChosenSettings`` may be."""
         own = {name: field for name, field in fields_of(Preferences).items() if name != "settings"}
         return own | {name: described()[name] for name in _FIT}
 
@@ -38,7 +38,7 @@ class Preferences:
         return ChosenSettings(**values)
 
     def changed(self, given: Mapping[str, Any]) -> Preferences:
-        """With some entries of ``record`` replaced. Raises ValueError, which names an entry that cannot be."""
+        """With some fields of ``ChosenSettings`` replaced. Raises ValueError, which names a field that cannot be."""
         fields = self.described()
         unknown = [name for name in given if name not in fields]
         if unknown:

@@ -1,0 +1,38 @@
+import msgspec
+import pytest
+
+from shapewright.settings import Settings, described
+from shapewright.studio.project.preferences import SHAPE_SECONDS, Preferences
+
+
+def test_the_page_gets_its_own_entries_and_some_settings():
+    record = msgspec.to_builtins(Preferences().message())
+    assert list(record)[:3] == ["auto_fit", "fresh", "preset"] and record["shape_seconds"] == SHAPE_SECONDS
+    assert set(record) == set(Preferences.described()) and record["samples"] == Settings.samples
+    assert all(Preferences.described()[name] == described()[name] for name in record if name in described())
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"refine": "much"}, "refine='much' must be off, quick or thorough"),
+        ({"samples": 3}, "samples=3 must be a whole number, at least 20"),
+        ({"auto_fit": 1}, "auto_fit=1 must be True or False"),
+        ({"preset": "papr"}, "preset='papr' must be fast or paper; did you mean paper?"),
+        ({"rfine": "off"}, "there is no setting 'rfine'; did you mean refine?"),
+        ({"workers": 2}, "there is no setting 'workers'"),
+    ],
+)
+def test_what_a_setting_does_not_allow_is_refused(given, message):
+    with pytest.raises(ValueError) as error:
+        Preferences().changed(given)
+    assert str(error.value) == message
+
+
+def test_another_preset_keeps_what_no_preset_says():
+    before = Preferences(settings=Settings(workers=2)).changed({"threshold": 0.2, "seed": 3, "epochs": 4, "rounds": 2})
+    paper = before.changed({"preset": "paper", "samples": 500})
+    assert (paper.preset, paper.settings.network, paper.settings.samples) == ("paper", "vgg19", 500)
+    assert (paper.settings.threshold, paper.settings.seed, paper.settings.workers) == (0.2, 3, 2)
+    assert (paper.settings.epochs, paper.settings.rounds) == (50, 0)
+    assert before.changed({"preset": "fast", "fresh": True}).settings == before.settings
