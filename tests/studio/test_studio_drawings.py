@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 import shapely
 
-from shapewright.studio.bench.telling import path
+from shapewright.studio.bench.shape_messages import path
 from studio_client import ready, studio
 
 PROCEDURE = """
