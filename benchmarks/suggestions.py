@@ -33,7 +33,7 @@ from shapewright.feedback.case import Case, Replica
 from shapewright.feedback.causes.replicas import covering_replicas, measured, nearest_replicas
 from shapewright.feedback.explanation import explain
 from shapewright.feedback.suggestions import suggestions
-from shapewright.feedback.surfaces.placement import Overlay, place
+from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible import Surface
 from shapewright.judging.judge import Judge
@@ -153,7 +153,8 @@ def explained(procedure: sw.Procedure, lost: list[tuple[Build, Replica]], crew: 
     """What is lost, each with the replica that has most of its surface in common."""
     references = judge.references.references
     known = [replace(replica, row=row) for row, (_, replica) in enumerate(lost)]
-    overlays = [overlay(references[replica.row].shape, replica.mesh) for replica in known]
+    surfaces = [Surface.of(references[replica.row].shape.normalised()) for replica in known]
+    overlays = [Overlay(surface, replica.mesh) for surface, replica in zip(surfaces, known, strict=True)]
     space = procedure.space
     prediction = Prediction.of(space, [space.carry(build.parameters) for build, _ in lost], doubt=0.4)
     covering = covering_replicas(known, overlays, prediction, crew, judge)
@@ -162,11 +163,6 @@ def explained(procedure: sw.Procedure, lost: list[tuple[Build, Replica]], crew: 
 
 def gathered(builds: list[Build]) -> sw.Collection:
     return sw.Collection.of({f"reference-{i:03d}": build.shape for i, build in enumerate(builds)})
-
-
-def overlay(reference: sw.Mesh, replica: sw.Mesh) -> Overlay:
-    theirs, ours = Surface.of(reference.normalised()), Surface.of(replica.normalised())
-    return Overlay(theirs, [place(theirs, ours)[0]])
 
 
 def lost_one(reference, nearest: Replica, covering: Replica) -> Case:

@@ -110,7 +110,7 @@ class Case:
             compatible,
             replica,
             residuals,
-            overlay=Overlay(residuals.reference, ()),
+            overlay=Overlay(residuals.reference),
             nearest=replica,
             covering=replica,
             covering_residuals=residuals,

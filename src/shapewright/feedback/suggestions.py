@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.feedback.case import Case
 from shapewright.feedback.ideas.hypotheses import hypotheses
 from shapewright.feedback.ideas.hypothesis import Hypothesis
@@ -108,20 +107,11 @@ def _misfits(cases: Sequence[Case], judge: Judge) -> list[Misfit]:
     def study(case: Case) -> Misfit:
         guesses: list[Hypothesis] = []
         if case.row in studied:
-            replica, cost = case.covering.mesh, judge.targets[case.row].cost
+            cost, replica = judge.targets[case.row].cost, case.covering.mesh
             guesses = hypotheses(
                 case.covering_residuals, case.reference, replica, lambda meshes: [cost(mesh) for mesh in meshes]
             )
-        return Misfit(
-            case.row,
-            case.covering.parameters,
-            case.covering.mesh,
-            tuple(guesses[:_HYPOTHESES]),
-            case.nearest.parameters,
-            judge.goal,
-            case.outside.parameters,
-            case.nearest.distance * RAW_SCALE,
-        )
+        return Misfit(case.covering, case.nearest, case.outside, tuple(guesses[:_HYPOTHESES]), judge.goal)
 
     return in_threads(study, cases, judge.settings.workers)
 

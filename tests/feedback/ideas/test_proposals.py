@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import shapewright as sw
+from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.hypothesis import ALL_OTHERS, Hypothesis
 from shapewright.feedback.ideas.needed_ranges import narrowed
 from shapewright.feedback.ideas.proposal import Misfit
@@ -35,7 +36,8 @@ def table(tmp_path):
 
 def misfit(table, row, *hypotheses, **parameters):
     values = {**table.space.defaults, **parameters}
-    return Misfit(row, values, table(**values), hypotheses)
+    replica = Replica(row, values, table(**values), 0.3)
+    return Misfit(replica, replica, replica, hypotheses)
 
 
 def made(table, misfits):

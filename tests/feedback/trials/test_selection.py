@@ -1,5 +1,6 @@
 """Which proposals are shown: those that bring something, with the Ranges that references need."""
 
+import numpy as np
 import pytest
 
 import shapewright as sw
@@ -47,15 +48,15 @@ def tall(post, heights):
     start = {"height": 1.0, "depth": 0.1}
     with Workers(post, 1) as crew:
         before = judge.distances(crew.build([start] * len(heights)))
-    misfits = [Misfit(i, start, post(**start), (), start, judge.goal, None, 15_000 * d) for i, d in enumerate(before)]
-    return misfits, judge
+    replicas = [Replica(row, start, post(**start), distance) for row, distance in enumerate(before)]
+    return [Misfit(replica, replica, replica, goal=judge.goal) for replica in replicas], judge
 
 
 def test_what_brings_something_is_shown_with_the_ranges_that_are_needed(post):
     misfits, judge = tall(post, (2.8, 3.2))
-    assert all(misfit.before > judge.goal for misfit in misfits)
+    assert all(15_000 * misfit.nearest.distance > judge.goal for misfit in misfits)
     ideas = [longer("depth", 0.9, (0, 1)), longer("height", 4.0, (0,))]
-    known = [Replica(0, misfits[0].parameters, misfits[0].replica, 0.2)]
+    known = [misfits[0].nearest]
     shown = selected(post, ideas, misfits, judge, known, 400, 3)
     assert [each.proposal.title for each in shown] == ["A wider Range of height"]
     (height,) = shown
@@ -68,7 +69,8 @@ def test_what_brings_something_is_shown_with_the_ranges_that_are_needed(post):
 def test_parameters_known_with_longer_ranges_need_no_search(post):
     misfits, judge = tall(post, (3.0,))
     (plain,) = misfits
-    known = Misfit(0, plain.parameters, plain.replica, (), plain.nearest, judge.goal, {"height": 3.0, "depth": 0.1})
+    outside = Replica(0, {"height": 3.0, "depth": 0.1}, box((0.5, 3.0, 0.1)).mesh(), 0.0)
+    known = Misfit(plain.covering, plain.nearest, outside, goal=judge.goal)
     (shown,) = selected(post, [longer("height", 4.0, (0,))], [known], judge, [], 1, 3)
     assert shown.outcome.parameters[0] == {"height": 3.0, "depth": 0.1} and shown.outcome.distance(0) < 0.02
     assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, [], 1, 3) == []
@@ -82,6 +84,7 @@ def test_a_change_of_what_was_there_is_not_shown(post):
 
 
 def test_the_way_to_a_compatible_shape():
-    misfit = Misfit(0, {}, box(1.0).mesh(), goal=100.0, before=150.0)
+    near, far = (Replica(0, {}, box(1.0).mesh(), distance) for distance in (150.0 / 15_000, np.inf))
+    misfit = Misfit(near, near, near, goal=100.0)
     assert [misfit.way(cost) for cost in (160.0, 150.0, 125.0, 100.0, 40.0)] == [0.0, 0.0, 0.5, 1.0, 1.0]
-    assert Misfit(0, {}, box(1.0).mesh(), goal=100.0).way(150.0) == 0.5
+    assert Misfit(far, far, far, goal=100.0).way(150.0) == 0.5

@@ -18,9 +18,8 @@ from shapewright.feedback.causes.replicas import (
     with_fields,
 )
 from shapewright.feedback.causes.rules import with_rules
-from shapewright.feedback.surfaces.placement import Overlay, place
+from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import residuals
-from shapewright.feedback.surfaces.visible import Surface
 from shapewright.judging.judge import Judge
 from shapewright.judging.mesh_target import MeshTarget
 from shapewright.parameters import ParameterSpace, Prediction
@@ -54,7 +53,7 @@ def _searched(
     """The misfits with the nearest replica within the space and outside, and the one that covers most."""
     space, threshold = crew.procedure.space, judge.settings.threshold
     known = with_fields([case.replica for case in misfits], judge)
-    overlays = in_threads(_overlay, misfits, judge.settings.workers)
+    overlays = in_threads(lambda case: Overlay(case.surface, case.replica.mesh), misfits, judge.settings.workers)
     prediction = _prediction(space, predictor, misfits)
     covering = covering_replicas(known, overlays, prediction, crew, judge)
     misfits = [
@@ -89,11 +88,6 @@ def _compared(misfits: Sequence[Case], crew: Workers, judge: Judge) -> list[Case
         replace(case, covering_residuals=where, isolation=float(alone[case.row]) if unlike[case.row] else None)
         for case, where in zip(misfits, compared, strict=True)
     ]
-
-
-def _overlay(case: Case) -> Overlay:
-    """An overlay that tries the fit of the iteration's replica besides the middle."""
-    return Overlay(case.surface, [place(case.surface, Surface.roughly(case.replica.mesh.normalised()))[0]])
 
 
 def _distance(replica: Replica) -> float:

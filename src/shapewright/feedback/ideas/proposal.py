@@ -6,13 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
+from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.hypothesis import Hypothesis
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.writing.wording import Rule
-from shapewright.parameters import End, Parameters, ParameterSpace
+from shapewright.parameters import End, Parameters
 from shapewright.shapes import Mesh
 
 Ranges = Mapping[str, tuple[float, float, float]]
@@ -25,36 +24,37 @@ class Misfit:
     """A reference that is not replicated, and what could be changed for it.
 
     Attributes:
-        row: index of the reference in the collection.
-        parameters, replica: those whose surface has most in common with the reference's.
+        covering: the replica within the space whose surface has most in common with the reference's.
+        nearest: the replica within the space that is nearest by the light field.
+        outside: the nearest replica with longer Ranges.
         hypotheses: the best first.
-        nearest: the parameters that are nearest by the light field, where they are others.
-        goal: the cost of a hypothesis that may well be compatible.
-        outside: the nearest parameters that are known with longer Ranges.
-        before: the cost of the nearest shape.
+        goal: the cost of a replica that may well be compatible.
     """
 
-    row: int
-    parameters: Parameters
-    replica: Mesh
+    covering: Replica
+    nearest: Replica
+    outside: Replica
     hypotheses: tuple[Hypothesis, ...] = ()
-    nearest: Parameters | None = None
     goal: float = THRESHOLD * RAW_SCALE
-    outside: Parameters | None = None
-    before: float = np.inf
+
+    @property
+    def row(self) -> int:
+        """Index of the reference in its collection."""
+        return self.covering.row
+
+    @property
+    def replica(self) -> Mesh:
+        """The shape that hypotheses change."""
+        return self.covering.mesh
 
     @cached_property
     def pieces(self) -> int:
         """Into how many pieces its replica falls."""
         return separate(self.replica)
 
-    def pressed(self, space: ParameterSpace) -> set[End]:
-        """The ends of Ranges that the nearest parameters rest on."""
-        return space.pressed(self.nearest or self.parameters)
-
     def way(self, cost: float) -> float:
-        """How much of the way from the nearest shape to a compatible one another has come, 0 to 1."""
-        way = min(max(self.before / self.goal - 1.0, _LEAST_WAY), 1.0)
+        """How much of the way from the nearest replica to a compatible one another has come, 0 to 1."""
+        way = min(max(self.nearest.distance * RAW_SCALE / self.goal - 1.0, _LEAST_WAY), 1.0)
         return min(max((1.0 + way - cost / self.goal) / way, 0.0), 1.0)
 
 
@@ -85,10 +85,10 @@ class Proposal:
     def candidates(self, misfit: Misfit) -> list[Parameters]:
         """Where a search may begin for a misfit."""
         if self.rule is None:
-            return [known for known in (misfit.outside, misfit.nearest) if known] or [misfit.parameters]
+            return [misfit.outside.parameters, misfit.nearest.parameters]
         middle: Parameters = {q.name: as_value(q.whole, self.ranges[q.name][2]) for q in self.rule.quantities}
         flag: Parameters = {self.flag: self._on} if self.flag else {}
-        return [{**misfit.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}]
+        return [{**misfit.covering.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}]
 
     def uses(self, parameters: Parameters) -> bool:
         """Whether parameters of the changed procedure make something that it did not make before."""

@@ -20,7 +20,8 @@ _HELPED, _PRICE = 0.6, 0.1  # of a misfit that a longer Range may help; what eac
 
 def wider_ranges(source: str, procedure: str, space: ParameterSpace, misfits: Sequence[Misfit]) -> Iterator[Proposal]:
     """A longer Range for each end that several misfits rest on, and one proposal for all these ends."""
-    ends = Counter(end for misfit in misfits for end in sorted(misfit.pressed(space)))
+    pressed = {misfit.row: space.pressed(misfit.nearest.parameters) for misfit in misfits}
+    ends = Counter(end for row in pressed for end in sorted(pressed[row]))
     least = max(_FEWEST, _SHARE * len(misfits))
     often = [end for end, count in ends.most_common(_COMMONEST) if count >= least]
     common = [(name, side) for name, side in often if _can_be_longer(space[name], side)][:_ENDS]
@@ -32,9 +33,8 @@ def wider_ranges(source: str, procedure: str, space: ParameterSpace, misfits: Se
             write(wide)
         except EditError:
             continue
-        members = [m for m in misfits if m.pressed(space) & set(chosen)]
-        starts: dict[int, Parameters] = {m.row: {} for m in members}
-        worth = _HELPED * len(members) - _PRICE * len(chosen)
+        starts: dict[int, Parameters] = {row: {} for row, its in pressed.items() if its & set(chosen)}
+        worth = _HELPED * len(starts) - _PRICE * len(chosen)
         yield Proposal("range", f"A wider Range of {listed(names)}", write, wide, starts, worth, ends=chosen)
 
 

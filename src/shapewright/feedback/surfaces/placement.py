@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 
@@ -47,23 +47,30 @@ class Fit:
 MIDDLE = Fit()
 
 
-def place(reference: Surface, replica: Surface) -> tuple[Fit, Transform]:
-    """The scale and shift of a normalised replica under which the two surfaces are nearest to each other.
+def place(reference: Surface, replica: Surface) -> Transform:
+    """The scale and shift of a normalised replica under which the two surfaces are nearest to each other."""
+    return best_fit(reference, replica).transform(_bounds(reference), _bounds(replica))
+
+
+def best_fit(reference: Surface, replica: Surface) -> Fit:
+    """How a normalised replica is laid over its reference so that the two surfaces are nearest to each other.
 
     Tried are, per axis, equal extents, and lower sides, middles and upper sides that coincide.
     """
     bounds, own = _bounds(reference), _bounds(replica)
     theirs, ours = _thinned(reference), _thinned(replica)
-    best = MIDDLE
-    least = float(_gaps(reference, replica, theirs, ours, best.transform(bounds, own)).mean())
+
+    def cost(fit: Fit) -> float:
+        return float(_gaps(reference, replica, theirs, ours, fit.transform(bounds, own)).mean())
+
+    best, least = MIDDLE, cost(MIDDLE)
     if least < _CLOSE:
-        return best, best.transform(bounds, own)
+        return best
     least *= _BETTER
     for fit in _different(bounds, own):
-        cost = float(_gaps(reference, replica, theirs, ours, fit.transform(bounds, own)).mean())
-        if cost < least:
-            best, least = fit, cost
-    return best, best.transform(bounds, own)
+        if (apart := cost(fit)) < least:
+            best, least = fit, apart
+    return best
 
 
 class Overlay:
@@ -73,7 +80,9 @@ class Overlay:
     further than FURTHEST count alike, so what the two have in common decides. That tells best which parts are missing.
     """
 
-    def __init__(self, reference: Surface, fits: Sequence[Fit]) -> None:
+    def __init__(self, reference: Surface, replica: Mesh | None = None) -> None:
+        """replica: one whose best fit is tried as well as the middle."""
+        fits = [best_fit(reference, Surface.roughly(replica.normalised()))] if replica else []
         self._reference, self._points, self._bounds = reference, _thinned(reference, _OVERLAID), _bounds(reference)
         self._fits = tuple(dict.fromkeys([MIDDLE, *fits]))
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from shapewright.feedback.surfaces.connection import connected_points
 from shapewright.feedback.surfaces.oriented_boxes import fit_box
-from shapewright.feedback.surfaces.placement import Fit, place
-from shapewright.feedback.surfaces.visible import SAMPLES, Surface
+from shapewright.feedback.surfaces.placement import place
+from shapewright.feedback.surfaces.visible import Surface
 from shapewright.shapes import Floats, Ints, Mesh, Transform
 
 RegionSide = Literal["unexplained", "surplus"]
@@ -43,7 +43,6 @@ class Region:
         distance: mean, to the other surface.
         label: of the replica's part that it lies on or is nearest to, None where that has none.
         rule: of the grammar that made that part, None where there is none.
-        faces: of that side's mesh.
         rows: of that side's ``Surface``.
     """
 
@@ -56,7 +55,6 @@ class Region:
     distance: float
     label: str | None
     rule: str | None
-    faces: Ints
     rows: Ints
 
     @property
@@ -72,7 +70,6 @@ class Residuals:
     Attributes:
         regions: the weightiest first.
         placement: takes units of the replica's mesh to the frame of the normalised reference.
-        fit: how the placement was chosen.
         mesh: the replica as it was given.
         reference, replica: their surfaces in that frame.
         to_replica: (N,), distances of the reference's points to the replica, in units of the reference's extent.
@@ -81,7 +78,6 @@ class Residuals:
 
     regions: tuple[Region, ...]
     placement: Transform
-    fit: Fit
     mesh: Mesh
     reference: Surface
     replica: Surface
@@ -95,16 +91,16 @@ class Residuals:
         return tuple(region for region in self.regions if region.side == side)
 
 
-def residuals(reference: Mesh | Surface, replica: Mesh, samples: int = SAMPLES, seed: int = 0) -> Residuals:
+def residuals(reference: Mesh | Surface, replica: Mesh) -> Residuals:
     """Compare the surfaces of a reference and its replica, of which only what can be seen from outside is judged.
 
     The replica is first laid over the reference: both are upright, but a missing part moves the bounding box, so
     besides the two boxes' middles their sides are tried. reference: the mesh, or the surface of the normalised mesh
-    where that is known. samples: points on each surface. Raises ValueError for a mesh without area.
+    where that is known. Raises ValueError for a mesh without area.
     """
-    of_reference = Surface.of(reference.normalised(), samples, seed) if isinstance(reference, Mesh) else reference
-    of_replica = Surface.of(replica.normalised(), samples, seed)
-    fit, shift = place(of_reference, of_replica)
+    of_reference = Surface.of(reference.normalised()) if isinstance(reference, Mesh) else reference
+    of_replica = Surface.of(replica.normalised())
+    shift = place(of_reference, of_replica)
     of_replica = of_replica.moved(shift)
     to_replica, to_reference = of_replica.distance(of_reference.points), of_reference.distance(of_replica.points)
     regions = [
@@ -115,7 +111,7 @@ def residuals(reference: Mesh | Surface, replica: Mesh, samples: int = SAMPLES, 
     centre = np.array(own.centre) + np.array(shift.centre) / own.scale
     placement = Transform(tuple(float(value) for value in centre), own.scale * shift.scale)
     ordered = tuple(sorted(regions, key=lambda region: -region.weight))
-    return Residuals(ordered, placement, fit, replica, of_reference, of_replica, to_replica, to_reference)
+    return Residuals(ordered, placement, replica, of_reference, of_replica, to_replica, to_reference)
 
 
 def pieces(surface: Surface, mesh: Mesh) -> NDArray[np.intp]:
@@ -150,7 +146,6 @@ def _regions(side: RegionSide, surface: Surface, distance: Floats, replica: Surf
             float(distance[rows].mean()),
             _commonest(mesh, faces),
             None,
-            np.unique(surface.faces[rows]),
             rows,
         )
 

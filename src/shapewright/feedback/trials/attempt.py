@@ -19,7 +19,6 @@ from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace, Prediction
 from shapewright.procedures import load_procedure
 from shapewright.search.budgets import Budget, Round
-from shapewright.search.objective import Measure
 from shapewright.search.search import refine
 from shapewright.shapes import Mesh
 
@@ -99,9 +98,17 @@ def outcome_of(
     space, rows = crew.procedure.space, list(starts)
     vectors = [space.carry(values) for values in starts.values()]
     if budget and rows:
-        goal = enough * judge.goal
-        vectors = _refined(
-            space, crew, judge.measure(rows), vectors, budget, goal, judge.settings.seed + turn, only, sure
+        encoded = np.array([space.encode(values) for values in vectors])
+        fixed = np.array([only is not None and name not in only for name in space.names])
+        vectors = refine(
+            Prediction.of(space, vectors, _UNLIKE, most=1.0 - _UNLIKE, sure=[sure] if sure else []),
+            crew,
+            judge.measure(rows),
+            budget,
+            judge.settings.seed + turn,
+            within=(np.where(fixed, encoded, 0.0), np.where(fixed, encoded, 1.0)),
+            spread=_SPREAD,
+            enough=enough * judge.goal,
         )
     builds = crew.build(vectors)
     replicas = [
@@ -159,28 +166,3 @@ def builds_the_same(crew: Workers, replicas: Sequence[Replica]) -> bool:
         if max(apart, abs(area(build.shape) - area(mesh)) / area(mesh)) > _SAME:
             return False
     return True
-
-
-def _refined(
-    space: ParameterSpace,
-    crew: Workers,
-    measure: Measure,
-    vectors: Sequence[Parameters],
-    budget: Budget,
-    goal: float,
-    seed: int,
-    only: Collection[str] | None,
-    sure: str | None,
-) -> list[Parameters]:
-    encoded = np.array([space.encode(values) for values in vectors])
-    fixed = np.array([only is not None and name not in only for name in space.names])
-    return refine(
-        Prediction.of(space, vectors, _UNLIKE, most=1.0 - _UNLIKE, sure=[sure] if sure else []),
-        crew,
-        measure,
-        budget,
-        seed,
-        within=(np.where(fixed, encoded, 0.0), np.where(fixed, encoded, 1.0)),
-        spread=_SPREAD,
-        enough=goal,
-    )
