@@ -6,7 +6,7 @@ import shapely
 from manifold3d import Manifold
 
 from shapewright.modelling.solids import Solid, box, cone, cylinder, extrude, prism, revolve, sphere, union
-from shapewright.shapes import mesh_digest
+from shapewright.shapes import shape_digest
 from shapewright.shapes.conversion import as_shape
 
 NAN, INFINITY = float("nan"), float("inf")
@@ -189,7 +189,7 @@ def test_results_are_the_same_every_time():
         return box((1, 0.1, 0.8), at=(0, 0.5, 0)).label("top") | leg.mirror("x", keep=True).mirror("z", keep=True)
 
     first, second = table().mesh(), table().mesh()
-    assert mesh_digest(first) == mesh_digest(second)
+    assert shape_digest(first) == shape_digest(second)
     assert first.labels == second.labels
 
 

@@ -19,9 +19,7 @@ from shapewright.comparison.light_field.regions import ART
 from shapewright.rendering.ink import fill, outlines
 from shapewright.rendering.silhouettes import SIZE
 from shapewright.settings import Align
-from shapewright.shapes import Drawing, Floats
-
-Bytes = NDArray[np.uint8]
+from shapewright.shapes import Bytes, Drawing, Floats
 
 # Orders and repetitions of the 35 moments of the paper, order 0 left out: it is the same for every shape.
 _ORDERS = np.array([(n, m) for n in range(1, 11) for m in range(n % 2, n + 1, 2)])

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import THREE_VIEWS, Camera
 from shapewright.rendering.raster import render
-from shapewright.shapes import Floats, Mesh
+from shapewright.shapes import Bytes, Floats, Mesh
 
 
 def intersection_over_union(
@@ -43,6 +42,6 @@ def depth_difference(
     return np.asarray(apart.sum(axis=(1, 2, 3)) / np.maximum(either.sum(axis=(1, 2, 3)), 1))
 
 
-def _depths(meshes: Sequence[Mesh], cameras: Sequence[Camera], size: int, threads: int | None) -> NDArray[np.uint8]:
+def _depths(meshes: Sequence[Mesh], cameras: Sequence[Camera], size: int, threads: int | None) -> Bytes:
     """(N, C, size, size): pictures of depth, 0 where there is nothing."""
     return render([mesh.normalised() for mesh in meshes], cameras, size, supersample=1, threads=threads)[:, :, 1]

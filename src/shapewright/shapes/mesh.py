@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -122,14 +122,3 @@ def concatenate(meshes: list[Mesh]) -> Mesh:
         np.concatenate(labels) if names else None,
         tuple(names),
     )
-
-
-def mesh_digest(mesh: Mesh) -> str:
-    """A key for the geometry alone: equal vertices and faces have equal digests."""
-    import hashlib
-
-    digest: Any = hashlib.blake2b(digest_size=16)
-    digest.update(np.int64(len(mesh.vertices)).tobytes())
-    digest.update(mesh.vertices.tobytes())
-    digest.update(mesh.faces.tobytes())
-    return str(digest.hexdigest())

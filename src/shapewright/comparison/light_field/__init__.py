@@ -1,10 +1,9 @@
 """The light field distance: how much two shapes differ to the eye, over all rotations (Chen et al. 2003)."""
 
+from shapewright.comparison.light_field.description import Descriptor
 from shapewright.comparison.light_field.pairs import (
     RAW_SCALE,
     THRESHOLD,
-    Align,
-    Descriptor,
     descriptor,
     descriptors,
     distance,
@@ -16,7 +15,6 @@ from shapewright.comparison.light_field.pairs import (
 __all__ = [
     "RAW_SCALE",
     "THRESHOLD",
-    "Align",
     "Descriptor",
     "descriptor",
     "descriptors",

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from shapewright.comparison.light_field.description import Descriptor, describe
-from shapewright.shapes import Mesh, mesh_digest
+from shapewright.shapes import Mesh, shape_digest
 from shapewright.storage import whole_file
 
 FORMAT = 1
@@ -30,18 +30,15 @@ class DescriptorCache:
 
         Raises ValueError as ``descriptor.describe`` does, and OSError when the folder cannot be written.
         """
-        path = self.folder / f"{mesh_digest(mesh)}-{bits}bit-v{FORMAT}.npz"
+        path = self.folder / f"{shape_digest(mesh)}-{bits}bit-v{FORMAT}.npz"
         known = _read(path, bits)
         if known is not None:
             return known
         descriptor = describe(mesh, bits)
-        self._write(path, descriptor)
-        return descriptor
-
-    def _write(self, path: Path, descriptor: Descriptor) -> None:
         self.folder.mkdir(parents=True, exist_ok=True)
         with whole_file(path) as partial, partial.open("wb") as file:
             np.savez(file, coefficients=descriptor.coefficients)
+        return descriptor
 
 
 def _read(path: Path, bits: int) -> Descriptor | None:
@@ -51,6 +48,5 @@ def _read(path: Path, bits: int) -> Descriptor | None:
             coefficients = file["coefficients"]
     except _DAMAGED:
         return None
-    if coefficients.shape != _FORM or coefficients.dtype != np.uint8:
-        return None
-    return Descriptor.of(coefficients, bits)
+    whole = coefficients.shape == _FORM and coefficients.dtype == np.uint8
+    return Descriptor(coefficients, bits) if whole else None

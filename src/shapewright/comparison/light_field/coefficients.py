@@ -8,13 +8,10 @@ same silhouettes.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.comparison.light_field.contours import FOURIER, contour_coefficients
 from shapewright.comparison.light_field.regions import ART, BASIS, CELLS, region_coefficients
-from shapewright.shapes import Floats
-
-Bytes = NDArray[np.uint8]
+from shapewright.shapes import Bytes, Floats
 
 COEFFICIENTS = ART + FOURIER + 2
 

@@ -15,9 +15,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from shapewright.rendering.silhouettes import SIZE
-from shapewright.shapes import Floats, Ints
+from shapewright.shapes import Bytes, Floats, Ints
 
-Bytes = NDArray[np.uint8]
 Pixels = NDArray[np.int32]
 Box = tuple[int, int, int, int]
 

@@ -7,45 +7,27 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.comparison.light_field.coefficients import COEFFICIENTS, coefficients, quantise
-from shapewright.comparison.light_field.contours import FOURIER
 from shapewright.comparison.light_field.dodecahedra import LIGHT_FIELDS, VIEWS, directions
 from shapewright.comparison.light_field.least_cost import Weighted, by_coefficient, weighted
-from shapewright.comparison.light_field.regions import ART
 from shapewright.rendering.silhouettes import SIZE, draw, view_axes
-from shapewright.shapes import Mesh
-
-Bytes = NDArray[np.uint8]
+from shapewright.shapes import Bytes, Mesh
 
 _AXES = view_axes(directions())
 
 
 @dataclass(frozen=True, eq=False)
 class Descriptor:
-    """Quantised coefficients of a shape's silhouettes, uint8; the axes are light field, view, coefficient.
+    """Quantised coefficients of a shape's silhouettes.
 
-    A silhouette of no pixels, such as that of a flat sheet seen edge-on, is all 0.
-
-    art: (10, 10, 35), 0 to 15 when ``bits`` is 4 and 0 to 255 when it is 8.
-    fourier: (10, 10, 10), 0 to 255.
-    circularity: (10, 10), 0 to 255.
-    eccentricity: (10, 10), 0 to 255.
-    bits: of ``art``, 4 or 8.
+    coefficients: (10, 10, 47), uint8, by light field and view: 35 of the region's transform (ART), 10 of the contour's
+        (Fourier), circularity, eccentricity. All 0 for a silhouette of no pixels: a flat sheet's that is seen edge-on.
+    bits: of the 35, which are 0 to 15 when it is 4, and 0 to 255 like the others when it is 8.
     """
 
-    art: Bytes
-    fourier: Bytes
-    circularity: Bytes
-    eccentricity: Bytes
+    coefficients: Bytes
     bits: int = 4
-
-    @cached_property
-    def coefficients(self) -> Bytes:
-        """All 47 of each silhouette in the order of the fields: (10, 10, 47)."""
-        others = np.stack([self.circularity, self.eccentricity], axis=-1)
-        return np.concatenate([self.art, self.fourier, others], axis=-1)
 
     @cached_property
     def by_view(self) -> Weighted:
@@ -56,14 +38,6 @@ class Descriptor:
     def by_coefficient(self) -> Weighted:
         """Weighted coefficients (47, 100) as ``least_cost.least_of_all`` takes them."""
         return by_coefficient(self.by_view)
-
-    @classmethod
-    def of(cls, coefficients: Bytes, bits: int = 4) -> Descriptor:
-        """The inverse of ``coefficients``."""
-        art, fourier, circularity, eccentricity = np.split(
-            coefficients, [ART, ART + FOURIER, ART + FOURIER + 1], axis=-1
-        )
-        return cls(art, fourier, circularity[..., 0], eccentricity[..., 0], bits)
 
 
 def describe(mesh: Mesh, bits: int = 4) -> Descriptor:
@@ -87,4 +61,4 @@ def describe(mesh: Mesh, bits: int = 4) -> Descriptor:
         of_light_field[:] = coefficients(images)
     if not values.any():
         raise ValueError("no view shows a pixel of the mesh: its triangles have no area to speak of")
-    return Descriptor.of(quantise(values, bits), bits)
+    return Descriptor(quantise(values, bits), bits)

@@ -21,19 +21,6 @@ from shapewright.settings import Align, Settings
 from shapewright.shapes import Floats, Mesh
 from shapewright.threads import in_threads
 
-__all__ = [
-    "RAW_SCALE",
-    "THRESHOLD",
-    "Align",
-    "Descriptor",
-    "descriptor",
-    "descriptors",
-    "distance",
-    "distances",
-    "raw_distance",
-    "raw_distances",
-]
-
 THRESHOLD = Settings.threshold
 """Shapes are compatible up to this normalised distance (paper section 4.3), with ART coefficients of 4 bits."""
 RAW_SCALE = 15_000

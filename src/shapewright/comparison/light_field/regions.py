@@ -12,9 +12,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from shapewright.rendering.silhouettes import SIZE
-from shapewright.shapes import Floats, Ints
+from shapewright.shapes import Bytes, Floats, Ints
 
-Bytes = NDArray[np.uint8]
 Runs = NDArray[np.int32]
 
 ART = 35

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.comparison import light_field
+from shapewright.settings import Align
 from shapewright.shapes import Floats
 
 NEIGHBOURS = 3
@@ -20,7 +21,7 @@ _MOST = 400  # others that a reference is compared with, at most
 
 def isolation(
     descriptors: Sequence[light_field.Descriptor | None],
-    align: light_field.Align = "free",
+    align: Align = "free",
     threads: int | None = None,
     seed: int = 0,
 ) -> Floats:
