@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import shapewright as sw
-from shapewright.building import build_all
+from shapewright.building import Workers
 from shapewright.prediction.inference import score
 
 UNSEEN = 1_000_003
@@ -28,7 +28,8 @@ def main() -> None:
     procedure = sw.load_procedure(Path(__file__).with_name("wall_unit.py"))
     space = procedure.space
     vectors = space.sample(arguments.references, seed=UNSEEN + arguments.seed)
-    builds = [build for build in build_all(procedure, vectors) if build.shape is not None]
+    with Workers(procedure) as crew:
+        builds = [build for build in crew.build(vectors, give_up=True) if build.shape is not None]
     references = sw.Collection.of({f"{i:03d}": build.shape for i, build in enumerate(builds)})
     targets = np.array([space.encode(build.parameters) for build in builds], dtype=np.float32)
     active = np.array([[name in space.active(build.parameters) for name in space.names] for build in builds])

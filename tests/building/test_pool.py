@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import shapewright as sw
-from shapewright.building import Limits, Workers, build_all, describe_failures
+from shapewright.building import Limits, Workers, describe_failures
 
 SOURCE = """
 import os, time
@@ -62,13 +62,18 @@ def vectors(*faults):
     return [{"size": 0.5 + 0.01 * i, "fault": fault} for i, fault in enumerate(faults)]
 
 
+def build_all(procedure, asked, workers):
+    with Workers(procedure, workers, LIMITS) as crew:
+        return crew.build(asked, give_up=True)
+
+
 def outcome(builds):
     return [(b.parameters["size"], b.failure or b.shape.vertices.tobytes()) for b in builds]
 
 
 def test_each_fault_costs_its_own_shape_only(part):
     asked = vectors(*["none"] * 10, *[f for fault in FAULTS for f in (fault, "none")], *["none"] * 100)
-    builds = build_all(part, asked, workers=2, limits=LIMITS)
+    builds = build_all(part, asked, workers=2)
     assert [build.parameters for build in builds] == asked
     for build in builds:
         fault = build.parameters["fault"]
@@ -83,22 +88,20 @@ def test_each_fault_costs_its_own_shape_only(part):
 
 def test_results_do_not_depend_on_the_number_of_workers(part):
     asked = vectors(*["none"] * 8, "raises", "exits", *["none"] * 150)
-    assert outcome(build_all(part, asked, workers=1, limits=LIMITS)) == outcome(
-        build_all(part, asked, workers=3, limits=LIMITS)
-    )
+    assert outcome(build_all(part, asked, workers=1)) == outcome(build_all(part, asked, workers=3))
 
 
 def test_a_procedure_that_always_fails_is_given_up_soon(part):
     with pytest.raises(
         sw.ProcedureError, match=r"every one of the first 8 shapes failed: 8 x raised.*IndexError.*size="
     ):
-        build_all(part, vectors(*["raises"] * 500), workers=2, limits=LIMITS)
+        build_all(part, vectors(*["raises"] * 500), workers=2)
     with pytest.raises(sw.ProcedureError, match=r"every one of the first 3 shapes failed: .*TimeLimit: it took longer"):
-        build_all(part, vectors(*["endless"] * 500), workers=2, limits=LIMITS)
+        build_all(part, vectors(*["endless"] * 500), workers=2)
 
 
 def test_infeasible_parameters_alone_do_not_give_the_procedure_up(part):
-    builds = build_all(part, vectors(*["infeasible"] * 12, "none"), workers=1, limits=LIMITS)
+    builds = build_all(part, vectors(*["infeasible"] * 12, "none"), workers=1)
     assert sum(build.shape is not None for build in builds) == 1
 
 
@@ -140,7 +143,7 @@ def test_nothing_asked_nothing_built(part):
 
 
 def test_failures_are_described_with_counts_and_parameters(part):
-    builds = build_all(part, vectors("none", "raises", "raises", "nothing"), workers=1, limits=LIMITS)
+    builds = build_all(part, vectors("none", "raises", "raises", "nothing"), workers=1)
     text = describe_failures(builds)
     assert text.startswith("2 x raised: ") and "for example with size=0.51, fault='raises'; 1 x no shape" in text
     assert describe_failures(builds[:1]) == "no failures"
@@ -154,7 +157,7 @@ def test_a_script_needs_no_main_guard(tmp_path):
             from typing import Annotated
             import numpy as np
             from shapewright import Range, procedure
-            from shapewright.building import build_all
+            from shapewright.building import Workers
             FACTOR = 3.0
             print("read")
 
@@ -163,7 +166,8 @@ def test_a_script_needs_no_main_guard(tmp_path):
                 print("from the author")
                 return np.eye(3) * size * FACTOR, [[0, 1, 2]]
 
-            builds = build_all(part, part.space.sample(20), workers=2)
+            with Workers(part, 2) as crew:
+                builds = crew.build(part.space.sample(20), give_up=True)
             print(sum(b.shape.vertices.max() > 1.4 for b in builds))
             """
         )
@@ -176,7 +180,7 @@ def test_a_script_needs_no_main_guard(tmp_path):
 def test_a_file_that_vanished_is_an_error_of_the_procedure(part):
     part.path.unlink()
     with pytest.raises(sw.ProcedureError, match="no such file"):
-        build_all(part, vectors("none"), workers=1, limits=LIMITS)
+        build_all(part, vectors("none"), workers=1)
 
 
 @pytest.mark.skipif(

@@ -6,7 +6,7 @@ import torch
 
 import shapewright as sw
 from shapewright import Range
-from shapewright.building import build_all
+from shapewright.building import Workers
 from shapewright.modelling.solids import box, cylinder
 from shapewright.parameters import Binary, Choice, ParameterSpace, Prediction, Scalar
 from shapewright.prediction.dataset import make_dataset, shapes_of, split
@@ -117,5 +117,6 @@ def test_a_procedure_that_draws_cannot_be_trained_on_meshes():
     def square(size: Annotated[float, Range(0.5, 1.0)] = 0.7):
         return shapely.box(0, 0, size, 1)
 
-    with pytest.raises(sw.ProcedureError, match="only 0 of 12 sampled shapes can be used: it builds drawings"):
-        shapes_of(build_all(square, square.space.sample(12), workers=1), sw.Mesh)
+    unusable = "only 0 of 12 sampled shapes can be used: it builds drawings"
+    with pytest.raises(sw.ProcedureError, match=unusable), Workers(square, 1) as crew:
+        shapes_of(crew.build(square.space.sample(12), give_up=True), sw.Mesh)

@@ -1,17 +1,6 @@
 """Building many shapes in worker processes that a bad procedure cannot take down with it."""
 
-from shapewright.building.outcomes import Build, Failure, FailureKind, Limits, commonest_place, describe_failures
-from shapewright.building.pool import Workers, build_all
-from shapewright.threads import cores
+from shapewright.building.outcomes import Build, Failure, Limits, commonest_place, describe_failures
+from shapewright.building.pool import Workers
 
-__all__ = [
-    "Build",
-    "Failure",
-    "FailureKind",
-    "Limits",
-    "Workers",
-    "build_all",
-    "commonest_place",
-    "cores",
-    "describe_failures",
-]
+__all__ = ["Build", "Failure", "Limits", "Workers", "commonest_place", "describe_failures"]

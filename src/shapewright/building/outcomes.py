@@ -74,14 +74,10 @@ class Build:
 
 def describe_failures(builds: Sequence[Build]) -> str:
     """The failures in one line a kind of message, commonest first, each with parameters that caused it."""
-    failed = [build for build in builds if build.failure]
-    if not failed:
-        return "no failures"
-    example = {build.failure: build.parameters for build in reversed(failed) if build.failure}
-    counts = Counter(build.failure for build in failed if build.failure)
-    return "; ".join(
-        f"{count} x {failure}, for example with {_call(example[failure])}" for failure, count in counts.most_common(3)
-    )
+    example = {build.failure: build.parameters for build in reversed(builds) if build.failure}
+    counts = Counter(build.failure for build in builds if build.failure).most_common(3)
+    kinds = [f"{count} x {failure}, for example with {_call(example[failure])}" for failure, count in counts]
+    return "; ".join(kinds) or "no failures"
 
 
 def commonest_place(builds: Sequence[Build]) -> Place | None:

@@ -11,7 +11,7 @@ import queue
 import sys
 import threading
 from collections.abc import Callable, Sequence
-from types import TracebackType
+from concurrent.futures import ThreadPoolExecutor, wait
 from typing import Literal
 
 import cloudpickle
@@ -48,12 +48,11 @@ class Workers:
         self._names = names
         self._payload = _payload(procedure, names)
         self._idle: list[WorkerProcess] = []
-        self._lock = threading.Lock()
 
     def __enter__(self) -> Workers:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(self, *_: object) -> None:
         self._stop()
 
     def _stop(self) -> None:
@@ -107,46 +106,37 @@ class Workers:
         tasks: queue.SimpleQueue[range] = queue.SimpleQueue()
         for piece in slices:
             tasks.put(piece)
-        errors: list[BaseException] = []
         stop = threading.Event()
 
         def serve() -> None:
-            try:
-                worker: WorkerProcess | None = None
-                while not stop.is_set():
-                    try:
-                        piece = tasks.get_nowait()
-                    except queue.Empty:
-                        break
-                    worker = self._serve(worker or self._take(), parameters, piece, results, tasks, stop)
-                if worker:
-                    self._idle.append(worker)
-            except BaseException as error:  # noqa: BLE001 - handed to the caller's thread
-                errors.append(error)
-                stop.set()
+            worker: WorkerProcess | None = None
+            while not stop.is_set():
+                try:
+                    piece = tasks.get_nowait()
+                except queue.Empty:
+                    break
+                worker = self._serve(worker or self._take(), parameters, piece, results, tasks, stop)
+            if worker:
+                self._idle.append(worker)
 
-        threads = [threading.Thread(target=serve, daemon=True) for _ in range(min(self.count, len(slices)))]
-        for thread in threads:
-            thread.start()
-        try:
-            while any(thread.is_alive() for thread in threads):
-                for thread in threads:
-                    thread.join(0.02)
-                if progress:
-                    progress(sum(result is not None for result in results), len(results))
-        except BaseException:
-            stop.set()
-            for thread in threads:
-                thread.join()
-            raise
-        if errors:
-            raise errors[0]
+        with ThreadPoolExecutor(self.count) as threads:
+            waiting = {threads.submit(serve) for _ in range(min(self.count, len(slices)))}
+            try:
+                while waiting:
+                    done, waiting = wait(waiting, timeout=0.02)
+                    for server in done:
+                        server.result()
+                    if progress:
+                        progress(sum(result is not None for result in results), len(results))
+            except BaseException:
+                stop.set()
+                raise
 
     def _take(self) -> WorkerProcess:
-        with self._lock:
-            if self._idle:
-                return self._idle.pop()
-        return WorkerProcess(self._payload, self.limits)
+        try:
+            return self._idle.pop()
+        except IndexError:
+            return WorkerProcess(self._payload, self.limits)
 
     def _serve(
         self,
@@ -158,7 +148,7 @@ class Workers:
         stop: threading.Event,
     ) -> WorkerProcess | None:
         """Build one slice; returns the worker, or None when it had to be ended."""
-        outcome = worker.ask([parameters[i] for i in piece], stop)
+        outcome = worker.build([parameters[i] for i in piece], stop)
         if isinstance(outcome, Failure):
             worker.stop()
             if stop.is_set():
@@ -176,18 +166,6 @@ class Workers:
         return worker
 
 
-def build_all(
-    procedure: Procedure,
-    parameters: Sequence[Parameters],
-    workers: int | None = None,
-    limits: Limits | None = None,
-    progress: Callable[[int, int], None] | None = None,
-) -> list[Build]:
-    """Build a shape for each parameter vector, in order; gives a broken procedure up (see Workers.build)."""
-    with Workers(procedure, workers, limits) as crew:
-        return crew.build(parameters, progress, give_up=True)
-
-
 def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:
     kinds = {build.failure.kind if build.failure else None for build in probes}
     hopeless = kinds == {"time"} or (enough == _PROBES[-1] and not kinds & {None, "infeasible"})
@@ -197,10 +175,9 @@ def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:
 
 
 def _payload(procedure: Procedure, names: str) -> bytes:
-    if procedure.path:
-        return bytes(cloudpickle.dumps((f"{procedure.path}:{procedure.name}", list(sys.path), names)))
+    target = f"{procedure.path}:{procedure.name}" if procedure.path else procedure
     try:
-        return bytes(cloudpickle.dumps((procedure, list(sys.path), names)))
+        return bytes(cloudpickle.dumps((target, list(sys.path), names)))
     except Exception as error:
         raise ProcedureError(
             f"it cannot be sent to the worker processes ({error}); "

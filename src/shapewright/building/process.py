@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-import queue
 import secrets
 import subprocess
 import sys
 import tempfile
 import threading
+from concurrent.futures import Future
 from multiprocessing.connection import Connection, Listener
 from pathlib import Path
 from typing import Any
@@ -45,79 +45,63 @@ class WorkerProcess:
                 self.process.stdin.write(key)
                 self.process.stdin.close()
                 self.connection = self._accept(listener)
-        self.connection.send_bytes(payload)
-        self.connection.send(limits)
-        if not self.connection.poll(_START_SECONDS):
-            self.stop()
-            raise no_answer(_START_SECONDS).error()
-        ready = self._receive()
-        if isinstance(ready, Failure):
-            self.stop()
-            raise ready.error()
+        self._load((payload, limits), _START_SECONDS, no_answer(_START_SECONDS))
 
-    def ask(self, parameters: list[Parameters], stop: threading.Event) -> list[Build] | Failure:
+    def build(self, parameters: list[Parameters], stop: threading.Event) -> list[Build] | Failure:
         """The builds of the first few vectors (at least one), or the failure that ended the worker.
 
         A worker answers after a fraction of the time limit at the latest, unless a shape exceeds the limit itself.
+        stop: ends the wait; the worker is then lost.
         """
-        answer: list[Build] | Failure = self.exchange(parameters, stop)
-        return answer
+        answer: list[Build] | Failure | None = self._exchange(parameters, self._patience, stop)
+        return answer or too_long(self.limits)
 
     def load(self, payload: bytes) -> None:
         """Build shapes of another procedure from now on. Raises ProcedureError; the worker is then lost."""
-        answer = self.exchange(payload, threading.Event())
+        self._load(payload, self._patience, too_long(self.limits))
+
+    @property
+    def _patience(self) -> float:
+        return 1.25 * self.limits.seconds + 0.5
+
+    def _load(self, request: Any, patience: float, late: Failure) -> None:
+        answer = self._exchange(request, patience, threading.Event()) or late
         if isinstance(answer, Failure):
             self.stop()
             raise answer.error()
 
-    def exchange(self, request: Any, stop: threading.Event) -> Any:
-        """The worker's answer, or the failure that ended it. stop: ends the wait; the worker is then lost."""
+    def _exchange(self, request: Any, patience: float, stop: threading.Event) -> Any:
+        """The worker's answer, or the failure that ended it; None after so many seconds of silence, or at ``stop``."""
+        answer: Any = COMPILING
         try:
             self.connection.send(request)
-        except OSError:
-            return crash(self.process)
-        answer: Any = COMPILING
-        while answer == COMPILING:
-            answer = self._wait(stop)
-        return answer
-
-    def _wait(self, stop: threading.Event) -> Any:
-        try:
-            patience = 1.25 * self.limits.seconds + 0.5
-            while not self.connection.poll(min(0.2, patience)):
-                patience -= 0.2
-                if stop.is_set() or patience <= 0.0:
-                    return too_long(self.limits)
-        except OSError:
-            return crash(self.process)
-        return self._receive()
-
-    def _receive(self) -> Any:
-        try:
-            return self.connection.recv()
+            while answer == COMPILING:
+                left = patience
+                while not self.connection.poll(min(0.2, left)):
+                    left -= 0.2
+                    if stop.is_set() or left <= 0.0:
+                        return None
+                answer = self.connection.recv()
         except (EOFError, OSError):
             return crash(self.process)
+        return answer
 
     def _accept(self, listener: Listener) -> Connection:
-        accepted: queue.SimpleQueue[Connection | BaseException] = queue.SimpleQueue()
+        accepted: Future[Connection] = Future()
 
         def wait() -> None:
             try:
-                accepted.put(listener.accept())
+                accepted.set_result(listener.accept())
             except BaseException as error:  # noqa: BLE001 - handed to the caller's thread
-                accepted.put(error)
+                accepted.set_exception(error)
 
         threading.Thread(target=wait, daemon=True).start()
         for _ in range(int(_START_SECONDS / 0.1)):
             try:
-                result = accepted.get(timeout=0.1)
-            except queue.Empty:
+                return accepted.result(timeout=0.1)
+            except TimeoutError:
                 if self.process.poll() is not None:
                     break
-                continue
-            if isinstance(result, BaseException):
-                raise result
-            return result
         self.process.kill()
         raise RuntimeError(f"a worker process did not start (exit status {self.process.poll()})")
 

@@ -23,28 +23,25 @@ _READY = "ready"
 
 
 def serve(connection: Connection) -> None:
-    """Answer requests until the other side closes: vectors to build, or another procedure to load."""
-    with _one_core():
-        payload = connection.recv_bytes()
-        limits: Limits = connection.recv()
-        try:
+    """Answer requests, vectors to build or a procedure to load, until the other side closes or one does not load."""
+    payload: bytes
+    limits: Limits
+    try:
+        with _one_core():
+            payload, limits = connection.recv()
             procedure, names = _received(payload)
-        except ProcedureError as error:
-            connection.send(Failure("raised", error.message, error.place))
-            return
-    limit_memory(limits.memory_mb)
-    connection.send(_READY)
-    with _naming(names):
-        while True:
-            requests: list[Parameters] | bytes = connection.recv()
-            if isinstance(requests, bytes):
-                try:
+        limit_memory(limits.memory_mb)
+        connection.send(_READY)
+        with _naming(names):
+            while True:
+                requests: list[Parameters] | bytes = connection.recv()
+                if isinstance(requests, bytes):
                     procedure, _ = _received(requests)
                     connection.send(_READY)
-                except ProcedureError as error:
-                    connection.send(Failure("raised", error.message, error.place))
-            else:
-                connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
+                else:
+                    connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
+    except ProcedureError as error:  # of a file that does not load: the parent ends this process
+        connection.send(Failure("raised", error.message, error.place))
 
 
 def _received(payload: bytes) -> tuple[Procedure, str]:

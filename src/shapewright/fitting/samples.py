@@ -17,7 +17,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from shapewright.building import Build, Workers, cores, describe_failures
+from shapewright.building import Build, Workers, describe_failures
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
@@ -26,6 +26,7 @@ from shapewright.shapes import Drawing
 from shapewright.shapes.files import Format, encode
 from shapewright.shapes.soundness import Soundness
 from shapewright.storage import remove_leftovers, whole_file, write_file
+from shapewright.threads import cores
 
 MANIFEST, RECORD = "manifest.csv", "samples.json"
 _FORMAT = 1
