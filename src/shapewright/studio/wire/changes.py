@@ -28,9 +28,6 @@ class ChosenSettings(Struct, frozen=True, kw_only=True):
 
     auto_fit: a fit follows every save.
     fresh: fits do not resume the run before.
-    threshold: largest distance of a compatible mesh.
-    fidelity: least visual information fidelity of a compatible drawing.
-    shape_seconds: what building one shape may take.
     """
 
     auto_fit: bool

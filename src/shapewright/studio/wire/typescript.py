@@ -1,6 +1,6 @@
 """The types of the messages in TypeScript, for the page: ``python -m shapewright.studio.wire.typescript``.
 
-Each module of messages becomes a module of ``studio-page/src/wire/messages``.
+Each module of messages becomes a module of ``studio-page/src/wire/messages``. What settings may be is a module too.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from typing import Annotated, Any, Literal, NotRequired, Union, get_args, get_or
 
 import msgspec
 
+from shapewright.settings import Preset, described
 from shapewright.studio.wire import board, changes, jobs, problems, references, requests, runs, shapes, values
 
 MODULES = (values, problems, board, jobs, runs, references, shapes, changes, requests)
@@ -35,7 +36,22 @@ def modules() -> dict[str, str]:
     homes = {name: _stem(module) for module in MODULES for name in _declared(module)}
     texts = {f"{_stem(module)}.ts": _module(module, homes) for module in MODULES}
     index = "".join(f'export type * from "./{_stem(module)}";\n' for module in MODULES)
-    return {**texts, "index.ts": _HEAD.format("*") + index}
+    return {**texts, "settings.ts": _settings(), "index.ts": _HEAD.format("*") + index}
+
+
+def _settings() -> str:
+    """What the settings that the page shows are, and what they may be."""
+    lines = [f"\nexport const PRESETS = {json.dumps(get_args(Preset))} as const;", "export const SETTINGS = {"]
+    for name, field in described().items():
+        if name not in changes.ChosenSettings.__struct_fields__:
+            continue
+        known: dict[str, Any] = {"help": field.help, "choices": field.choices}
+        if not field.choices:
+            least = field.within.above if field.within.least is None else field.within.least
+            known = {"help": field.help, "least": least, "most": field.within.most or field.within.below}
+            known["step"] = field.within.step or 1 if field.kind is int else "any"
+        lines.append(f"  {name}: {{ {', '.join(f'{key}: {json.dumps(value)}' for key, value in known.items())} }},")
+    return _HEAD.replace("studio/wire/{}", "settings") + "\n".join([*lines, "} as const;", ""])
 
 
 def _stem(module: types.ModuleType) -> str:

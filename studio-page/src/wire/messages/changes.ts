@@ -25,11 +25,8 @@ export interface ChosenSettings {
   refine: "off" | "quick" | "thorough";
   rounds: number;
   seed: number;
-  /** largest distance of a compatible mesh. */
   threshold: number;
-  /** least visual information fidelity of a compatible drawing. */
   fidelity: number;
-  /** what building one shape may take. */
   shape_seconds: number;
 }
 
