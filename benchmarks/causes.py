@@ -25,7 +25,7 @@ import numpy as np
 import shapewright as sw
 from shapewright.building import Workers
 from shapewright.feedback.case import Replica
-from shapewright.feedback.causes.replicas import measured, nearest_replicas
+from shapewright.feedback.causes.replicas import NEAREST, measured, nearest_replicas
 from shapewright.feedback.explanation import explain
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import Solid, box, cylinder, sphere
@@ -173,7 +173,8 @@ def made(
             for replica, (row, values) in zip(measured(asked, crew, judge), asked, strict=True)
         ]
         if not case.spoil:
-            known = nearest_replicas(known, Prediction.of(space, start, doubt=1.0), crew, judge, QUICK)
+            prediction = Prediction.of(space, start, doubt=1.0)
+            known = nearest_replicas(known, prediction, crew, judge, replace(QUICK, spread=NEAREST.spread))
     results = tuple(
         Result(
             name=reference.name,

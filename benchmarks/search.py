@@ -20,12 +20,17 @@ import shapewright as sw
 from shapewright.building import Workers
 from shapewright.comparison.light_field.aligned import AlignedCost
 from shapewright.judging.judge import Judge
-from shapewright.search.budgets import QUICK, Budget, Round
-from shapewright.search.search import refine
+from shapewright.search.budgets import QUICK, Budget
+from shapewright.search.moves import Probe, Scan, Step
+from shapewright.search.objective import Criterion
+from shapewright.search.search import SearchStart, refine
 
-EXACT = (Round(3, afresh=True, probe=0.05, both=True), Round(3, 3))
+EXACT = (Probe(3, 0.05, both=True, again=True), Step(3, 3))
 LONG = Budget(
-    (Round(24), Round(12), *(Round(8, 2, 6),) * 8, *(Round(4, 2, 8),) * 10, *(EXACT * 10), *(Round(2, 2, 8),) * 8)
+    (
+        *(Scan(24), Probe(12), *(Step(8, scatter=6),) * 8, *(Step(4, scatter=8),) * 10),
+        *(*(EXACT * 10), *(Step(2, scatter=8),) * 8),
+    )
 )
 
 
@@ -121,7 +126,8 @@ def main() -> None:
 
         for title, budget in (("quick", QUICK), ("long", LONG)):
             counted[0] = 0
-            vectors = refine(prediction, crew, measure, budget, arguments.seed, goal=judge.goal)
+            criterion = Criterion(measure, goal=judge.goal)
+            vectors = refine(SearchStart(prediction), criterion, crew, budget, arguments.seed)
             vectors = [values or procedure.space.defaults for values in vectors]
             took = time.perf_counter() - started
             each = counted[0] / len(shapes)

@@ -1,3 +1,4 @@
+from itertools import accumulate
 from typing import Annotated
 
 import numpy as np
@@ -17,8 +18,9 @@ from shapewright.modelling.drawing import box, circle
 from shapewright.modelling.solids import box as block
 from shapewright.parameters import Prediction
 from shapewright.rendering.ink import HALF
-from shapewright.search.drawing_budgets import DRAWN, DRAWN_THOROUGH
-from shapewright.search.search import refine
+from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH
+from shapewright.search.moves import SwitchChoices
+from shapewright.search.search import SearchStart, refine
 from shapewright.threads import in_threads
 
 
@@ -65,7 +67,7 @@ def test_distance_is_fidelity_lost(judge):
 def test_residuals_and_overlaps_are_of_areas(judge):
     same, other, mesh = judge.measure([3])([(0, table()), (0, table(0.1)), (0, block(1).mesh())])
     assert mesh is None and not same.any()
-    ends = [(part.start, part.stop) for part in judge.parts]
+    ends = [(part.start, part.stop) for part in judge.criterion([0]).parts]
     assert [start for start, _ in ends] == [0, *(end for _, end in ends[:-1])] and ends[-1][1] == len(other)
     # Blurs keep the ink; each scale has all of it.
     ink = other.sum() / UNIT / len(SCALES) * (2 * HALF / SMALL) ** 2
@@ -119,7 +121,7 @@ def test_a_search_finds_thin_legs_that_nothing_overlaps_at_first():
     judge = Judge.of(references, sw.Settings(workers=1))
     start = Prediction(desk.space, (*[np.array([0.5, 0.5])] * 3, np.full((2, 2), 0.5)))
     with Workers(desk, 1) as crew:
-        found = crew.build(refine(start, crew, judge.measure([0, 1]), DRAWN, seed=1, parts=judge.parts))
+        found = crew.build(refine(SearchStart(start), judge.criterion([0, 1]), crew, DRAWN, seed=1))
     assert [build.parameters["bar"] for build in found] == [True, False]
     assert (overlaps(judge, found)[0] > 0.93).all()
     assert DRAWN.evaluations(3) < 250 and DRAWN.within(30, 3).evaluations(3) <= 30
@@ -128,11 +130,13 @@ def test_a_search_finds_thin_legs_that_nothing_overlaps_at_first():
 @pytest.mark.parametrize("budget", [DRAWN, DRAWN_THOROUGH])
 def test_whatever_else_is_tried_the_best_comes_back_by_the_finest_scale(budget):
     finest = len(SCALES) - 1
-    others = [i for i, turn in enumerate(budget.rounds) if turn.other]
-    assert others and budget.rounds[-1].part == finest == max(turn.part for turn in budget.rounds)
-    for start, end in zip(others, [*others[1:], len(budget.rounds)], strict=True):
-        assert budget.rounds[start].part < finest and budget.rounds[end - 1].part == finest
-    assert budget.simple < budget.rounds[0].combinations
+    others = [i for i, move in enumerate(budget.moves) if isinstance(move, SwitchChoices)]
+    turns = (getattr(move, "scale", None) for move in budget.moves)
+    scales = list(accumulate(turns, lambda before, scale: before if scale is None else scale, initial=0))[1:]
+    assert others and scales[-1] == finest == max(scales)
+    for start, end in zip(others, [*others[1:], len(budget.moves)], strict=True):
+        assert scales[start] < finest and scales[end - 1] == finest
+    assert budget.simple < budget.combinations
 
 
 def test_a_drawing_measures_what_the_comparisons_measure():

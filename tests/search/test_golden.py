@@ -17,9 +17,10 @@ from shapewright import Infeasible, Range
 from shapewright.building import Workers
 from shapewright.parameters import Prediction
 from shapewright.rendering.ink import coverage
-from shapewright.search.budgets import QUICK, THOROUGH, Budget, Round
-from shapewright.search.drawing_budgets import DRAWN, DRAWN_THOROUGH
-from shapewright.search.search import refine
+from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, Budget
+from shapewright.search.moves import Probe, Return, Scan, Step, SwitchChoices, UseScale
+from shapewright.search.objective import Criterion
+from shapewright.search.search import SearchStart, refine
 
 FILE = Path(__file__).with_suffix(".json")
 CORNERS = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
@@ -128,17 +129,33 @@ def guessed(space, truth, seed):
     return Prediction(space, tuple(columns))
 
 
-CLOSER = Budget((Round(6), Round(2, rival=1.25), Round(2, 2, 4, rival=1.25), *(Round(1, 2, 5),) * 10), patience=2)
+CLOSER = Budget(
+    (Scan(6), Probe(2, rival=1.25), Step(2, scatter=4, rival=1.25), *(Step(1, scatter=5),) * 10),
+    patience=2,
+    spread=0.2,
+)
 OTHERS = Budget(
     (
-        *(Round(4), Round(2), Round(2, 2, 2), Round(1, afresh=True, both=True, probe=0.05), Round(1, 3)),
-        *(Round(6, other="choice"), Round(3, rival=3.0), Round(2, 3, 1, rival=3.0), Round(2, 2, 4, back=True)),
-        *(Round(5, other="plain"), Round(2), Round(2, 1), Round(1, 2, 2, back=True)),
-        *(Round(8, other="likely"), Round(2, rival=2.0), Round(1, 3, back=True)),
+        *(Scan(4), Probe(2), Step(2, scatter=2), Probe(1, 0.05, both=True, again=True), Step(1, 3)),
+        *(
+            SwitchChoices("single"),
+            Scan(6),
+            Probe(3, rival=3.0),
+            Step(2, 3, 1, rival=3.0),
+            Return(2),
+            Step(2, scatter=4),
+        ),
+        *(SwitchChoices("defaults"), Scan(5), Probe(2), Step(2, 1), Return(1), Step(1, scatter=2)),
+        *(SwitchChoices("likely"), Scan(8), Probe(2, rival=2.0), Return(1), Step(1, 3)),
     ),
     simple=2,
 )
-SCALED = Budget((Round(3), Round(2), *(Round(2, 2, part=part) for part in (1, 2)), *(Round(1, part=3),) * 9))
+SCALED = Budget(
+    (
+        *(Scan(3), Probe(2), UseScale(1, keep=2), Step(2), UseScale(2, keep=2), Step(2)),
+        *(UseScale(3, keep=1), *(Step(1),) * 9),
+    )
+)
 
 
 def numbers(space, truth, by):
@@ -160,14 +177,14 @@ def cases():
     space = stand.space
     known, within = [*numbers(space, STANDS, 0.0)[:1], None, *numbers(space, STANDS, 0.03)[2:]], limits(space, STANDS)
     uncut = {"parts": SCALES}
-    yield "quick", stand, {"budget": QUICK, "doubt": 5.0, "goal": 900.0}
-    yield "thorough", stand, {"budget": THOROUGH, "doubt": 5.0, "goal": 900.0}
-    yield "thorough, enough", stand, {"budget": THOROUGH, "doubt": 0.5, "enough": 60.0}
+    yield "quick", stand, {"budget": QUICK, "surprise_cost": 5.0, "goal": 900.0}
+    yield "thorough", stand, {"budget": THOROUGH, "surprise_cost": 5.0, "goal": 900.0}
+    yield "thorough, enough", stand, {"budget": THOROUGH, "surprise_cost": 0.5, "enough": 60.0}
     yield "known", stand, {"budget": QUICK, "known": known, "goal": 900.0}
     yield "known and new", stand, {"budget": QUICK, "known": known, "new": {"height"}, "goal": 900.0}
     yield "known and nothing new", stand, {"budget": QUICK, "known": known, "new": set(), "goal": 900.0}
-    yield "within", stand, {"budget": CLOSER, "within": within, "spread": 0.2, "known": known}
-    yield "others", stand, {"budget": OTHERS, "doubt": 1.0, "spread": 0.06}
+    yield "within", stand, {"budget": CLOSER, "within": within, "known": known}
+    yield "others", stand, {"budget": replace(OTHERS, spread=0.06), "surprise_cost": 1.0}
     yield "others, cut", stand, {"budget": OTHERS.within(60, 4)}
     yield "drawn", desk, {"budget": DRAWN, **uncut}
     yield "drawn, enough", desk, {"budget": DRAWN, "enough": 100.0, **uncut}
@@ -176,7 +193,7 @@ def cases():
     yield "drawn, thorough", desk, {"budget": DRAWN_THOROUGH, "known": [None, DESKS[1]], **uncut}
     yield "scaled", desk, {"budget": SCALED, **uncut}
     yield "scaled, patient", desk, {"budget": replace(SCALED, patience=1), **uncut}
-    yield "no other choice", slab, {"budget": THOROUGH.within(300, 2), "doubt": 5.0}
+    yield "no other choice", slab, {"budget": THOROUGH.within(300, 2), "surprise_cost": 5.0}
     yield "no other choice drawn", slab, {"budget": DRAWN, "parts": tuple(slice(k, None) for k in (0, 200, 400, 600))}
 
 
@@ -193,7 +210,10 @@ def found(name):
         return measure(pairs)
 
     with Workers(procedure, 1) as crew:
-        vectors = refine(guessed(procedure.space, truth, 7), crew, counting, seed=3, **asked)
+        start = {name: asked.pop(name) for name in ("known", "new", "within") if name in asked}
+        budget = asked.pop("budget")
+        start = SearchStart(guessed(procedure.space, truth, 7), **start)
+        vectors = refine(start, Criterion(counting, **asked), crew, budget, seed=3)
     return {"shapes": count[0], "parameters": [{n: repr(v) for n, v in vector.items()} for vector in vectors]}
 
 

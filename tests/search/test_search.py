@@ -10,9 +10,11 @@ from shapewright.building import Workers
 from shapewright.comparison.light_field.aligned import AlignedCost
 from shapewright.modelling.solids import box, cylinder
 from shapewright.parameters import Prediction
-from shapewright.search.budgets import QUICK, THOROUGH, Budget, Round
+from shapewright.search.budgets import QUICK, THOROUGH, Budget
 from shapewright.search.combinations import others
-from shapewright.search.search import refine
+from shapewright.search.moves import Probe, Return, Scan, Step, SwitchChoices, UseScale
+from shapewright.search.objective import Criterion
+from shapewright.search.search import SearchStart, refine
 
 
 @sw.procedure
@@ -51,11 +53,12 @@ def test_refinement_finds_the_parameters_and_mends_a_wrong_choice():
     targets = [post(**values) for values in truth]
     start = predicted((0.6, 0.3, SURE, 0.3), (0.25, 0.45, MISTAKEN, 0.6))
     measure = measure_against(targets)
+    criterion = Criterion(measure)
     with Workers(post, 1) as crew:
-        quick = refine(start, crew, measure, QUICK, seed=3)
-        again = refine(start, crew, measure, QUICK, seed=3)
-        alone = refine(start.take([0]), crew, measure, QUICK, seed=3)
-        thorough = refine(start, crew, measure, THOROUGH, seed=3, enough=300.0)
+        quick = refine(SearchStart(start), criterion, crew, QUICK, seed=3)
+        again = refine(SearchStart(start), criterion, crew, QUICK, seed=3)
+        alone = refine(SearchStart(start.take([0])), criterion, crew, QUICK, seed=3)
+        thorough = refine(SearchStart(start), Criterion(measure, enough=300.0), crew, THOROUGH, seed=3)
     assert quick == again and quick[0] == alone[0]
     assert [found["form"] for found in quick] == ["square", "round"]
     at_first = [post.space.decode(row) for row in ([0.6, 0.3, 0, 0.3], [0.25, 0.45, 0, 0.6])]
@@ -73,7 +76,7 @@ def test_refinement_stays_within_the_limits_of_each_reference():
     start = predicted((0.65, 0.3, SURE, 0.3), (0.25, 0.45, SURE, 0.6))
     measure = measure_against([post(height=0.3, width=0.9, cap=0.9), post(height=2.0, width=0.9, cap=0.0)])
     with Workers(post, 1) as crew:
-        found = refine(start, crew, measure, QUICK, within=limits)
+        found = refine(SearchStart(start, within=limits), Criterion(measure), crew)
     for values, low, high in zip(found, *limits, strict=True):
         encoded = post.space.encode(values)[:2]
         assert (encoded >= low[:2] - 1e-9).all() and (encoded <= high[:2] + 1e-9).all()
@@ -85,7 +88,7 @@ def test_refinement_never_makes_it_worse():
     start = predicted(*[(rng.random(), rng.random(), rng.dirichlet(np.ones(3)), rng.random()) for _ in targets])
     measure = measure_against(targets)
     with Workers(post, 1) as crew:
-        found = refine(start, crew, measure, QUICK.within(24, 3), seed=1)
+        found = refine(SearchStart(start), Criterion(measure), crew, QUICK.within(24, 3), seed=1)
         builds = crew.build([post.space.canonical(post.space.decode(start.likeliest(i, 1)[0])) for i in range(5)])
     for i, (build, values) in enumerate(zip(builds, found, strict=True)):
         if build.shape is not None:
@@ -101,8 +104,8 @@ def test_of_forms_that_look_alike_the_likelier_is_chosen():
         return [np.array([100.0, (2.0, 50.0)[i] if len(mesh.faces) > 40 else 0.0]) for i, mesh in pairs]
 
     with Workers(post, 1) as crew:
-        careful = refine(start, crew, measure, QUICK, doubt=5.0)
-        careless = refine(start, crew, measure, QUICK)
+        careful = refine(SearchStart(start), Criterion(measure, surprise_cost=5.0), crew)
+        careless = refine(SearchStart(start), Criterion(measure), crew)
     assert [found["form"] for found in careful] == ["round", "square"]
     assert [found["form"] for found in careless] == ["square", "square"]
 
@@ -110,11 +113,12 @@ def test_of_forms_that_look_alike_the_likelier_is_chosen():
 def test_other_choices_are_tried_and_the_best_one_comes_back():
     truth = [{"height": 1.2, "width": 0.4, "form": form, "cap": 0.6} for form in ("square", "round")]
     start = predicted(*[(0.5, 0.3, [1.0, 0.0, 0.0], 0.6)] * 2)
-    budget = Budget((Round(1), Round(1), Round(1, 3), Round(2, other="choice"), Round(2), Round(1, 3, back=True)))
+    first = (Scan(1), Probe(1), Step(1, 3))
+    budget = Budget((*first, SwitchChoices("single"), Scan(2), Probe(2), Return(1), Step(1, 3)))
     with Workers(post, 1) as crew:
-        found = refine(start, crew, measure_against([post(**values) for values in truth]), budget)
-        without = replace(budget, rounds=budget.rounds[:3])
-        before = refine(start, crew, measure_against([post(**values) for values in truth]), without)
+        criterion = Criterion(measure_against([post(**values) for values in truth]))
+        found = refine(SearchStart(start), criterion, crew, budget)
+        before = refine(SearchStart(start), criterion, crew, replace(budget, moves=first))
     assert [values["form"] for values in found] == ["square", "round"]
     assert [values["form"] for values in before] == ["square", "square"]
 
@@ -122,7 +126,7 @@ def test_other_choices_are_tried_and_the_best_one_comes_back():
 def test_where_nothing_can_be_built_the_prediction_stays():
     start = predicted((0.5, 0.95, [0.0, 0.0, 1.0], 0.5))
     with Workers(post, 1) as crew:
-        (found,) = refine(start, crew, lambda pairs: [None] * len(pairs), QUICK.within(1, 3))
+        (found,) = refine(SearchStart(start), Criterion(lambda pairs: [None] * len(pairs)), crew, QUICK.within(1, 3))
     assert found["form"] == "bare" and found["width"] == pytest.approx(0.955) and found["cap"] == 0.5
 
 
@@ -155,21 +159,21 @@ def test_variants_find_a_choice_that_the_prediction_excludes_and_plain_starts_wh
         built.extend(pairs)
         return measure_against([target])(pairs)
 
-    rounds = (Round(1), Round(1), Round(1, 2))
-    further = (*rounds, Round(3, other="choice"), Round(2, probe=0.01), Round(2, 2))
+    moves = (Scan(1), Probe(1), Step(1, 2))
+    further = (*moves, SwitchChoices("single"), Scan(3), Probe(2, 0.01), Step(2, 2))
     far = predicted((0.0, 1.0, SURE, 0.0))
     with Workers(post, 1) as crew:
-        (as_predicted,) = refine(start, crew, measure, Budget(rounds))
-        assert len(built) == Budget(rounds).evaluations(3) == 6
-        (varied,) = refine(start, crew, measure, Budget(further))
+        (as_predicted,) = refine(SearchStart(start), Criterion(measure), crew, Budget(moves))
+        assert len(built) == Budget(moves).evaluations(3) == 6
+        (varied,) = refine(SearchStart(start), Criterion(measure), crew, Budget(further))
         assert Budget(further).evaluations(3) == 6 + 3 + 6 + 4
-        (plain,) = refine(far, crew, measure, Budget((Round(2),), simple=1))
-        again = Budget((Round(1), Round(3, other="plain")))
-        (restarted,) = refine(far, crew, measure_against([post(form="round")]), again)
+        (plain,) = refine(SearchStart(far), Criterion(measure), crew, Budget((Scan(2),), simple=1))
+        again = Budget((Scan(1), SwitchChoices("defaults"), Scan(3)))
+        (restarted,) = refine(SearchStart(far), Criterion(measure_against([post(form="round")])), crew, again)
     assert as_predicted["form"] == "square" and varied["form"] == "round"
     assert plain == {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.5}
     assert restarted == {**plain, "form": "round"}
-    assert Budget((Round(4), Round(1)), simple=3).within(2, 3) == Budget((Round(2),))
+    assert Budget((Scan(4), Probe(1)), simple=3).within(2, 3) == Budget((Scan(2),))
 
 
 def test_the_best_rests_while_others_are_tried_by_a_coarser_part():
@@ -183,11 +187,12 @@ def test_the_best_rests_while_others_are_tried_by_a_coarser_part():
     tried: set[int] = set()
     fine, coarse = slice(0, 2), slice(2, 3)
     start = predicted((0.5, 0.2, SURE, 0.5))
-    first = (*(Round(1, part=1),) * 4, Round(3, other="choice"), Round(3), Round(3))
+    first = (UseScale(1, keep=1), Scan(1), Probe(1), *(Step(1),) * 2)
+    others_too = (*first, SwitchChoices("single", scale=0), Scan(3), Probe(3), Step(3))
     with Workers(post, 1) as crew:
         found = [
-            refine(start, crew, measure, Budget(rounds), parts=(coarse, fine))[0]
-            for rounds in (first[:4], first, (*first, Round(1, part=1)))
+            refine(SearchStart(start), Criterion(measure, (coarse, fine)), crew, Budget(moves))[0]
+            for moves in (first, others_too, (*others_too, UseScale(1, keep=1), Step(1)))
         ]
     assert [values["form"] for values in found] == ["square"] * 3  # where the rounds end before the last part as well
     assert [values["width"] for values in found] == [pytest.approx(0.4)] * 3
@@ -203,9 +208,9 @@ def test_only_what_is_nearly_compatible_is_explored_further():
         measured.extend(i for i, _ in pairs)
         return measure_against([target, box((1, 0.1, 1)).mesh()])(pairs)
 
-    budget = Budget((Round(1), Round(1), Round(1, 1), Round(1, 1, 5, near=4.0)))
+    budget = Budget((Scan(1), Probe(1), Step(1, 1), Step(1, 1, 5, near=4.0)))
     with Workers(post, 1) as crew:
-        refine(start, crew, measure, budget, goal=400.0)
+        refine(SearchStart(start), Criterion(measure, goal=400.0), crew, budget)
     assert measured.count(0) in (5, 11) and measured.count(1) == 5
     costs = [np.abs(measure_against([target])([(0, post(**post.space.decode([0.5, 0.5, 0, 0.5])))])[0]).sum()]
     assert costs[0] > 400.0
@@ -224,14 +229,15 @@ def test_where_an_earlier_search_ended_at_the_best_nothing_more_is_spent():
                 measured.extend(pairs)
                 return measure_against([target])(pairs)
 
-            (found,) = refine(start, crew, measure, QUICK, known=known, new=new)
+            (found,) = refine(SearchStart(start, known, new), Criterion(measure), crew)
             counts.append(len(measured))
             assert found["height"] == pytest.approx(1.0, abs=0.05)
     assert counts[0] == counts[2] > counts[1] == counts[3] == 3
 
 
 def test_a_search_that_is_cut_short_keeps_the_best_that_rested():
-    budget = Budget((Round(2), Round(1), Round(1, 2), Round(2, other="choice"), Round(2), Round(2, 2, part=1)))
+    first = (Scan(2), Probe(1), Step(1, 2))
+    budget = Budget((*first, SwitchChoices("single"), Scan(2), Probe(2), UseScale(1, keep=2), Step(2, 2)))
     cost = AlignedCost(post(height=1.4, width=0.3, form="square", cap=0.5))
     start = predicted((0.65, 0.25, SURE, 0.5))
     parts = (slice(0, 470), slice(470, 940))
@@ -241,8 +247,8 @@ def test_a_search_that_is_cut_short_keeps_the_best_that_rested():
 
     with Workers(post, 1) as crew:
         cuts = [budget.within(evaluations, 3) for evaluations in (5, 7, 9, 15, 100)]
-        found = [refine(start, crew, measure, cut, parts=parts)[0] for cut in cuts]
-    assert [len(cut.rounds) for cut in cuts] == [2, 3, 4, 5, 6]
+        found = [refine(SearchStart(start), Criterion(measure, parts), crew, cut)[0] for cut in cuts]
+    assert [cut.rounds for cut in cuts] == [2, 3, 4, 5, 6]
     assert [values["form"] for values in found] == ["square"] * 5
 
 
@@ -255,7 +261,7 @@ def counted(start, target, budget, known=None):
         return measure_against([target])(pairs)
 
     with Workers(post, 1) as crew:
-        (found,) = refine(start, crew, measure, budget, known=known)
+        (found,) = refine(SearchStart(start, known), Criterion(measure), crew, budget)
     return len(measured), found
 
 
@@ -263,19 +269,19 @@ def test_a_search_ends_where_nothing_moves():
     truth = {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.9}
     height, width, _, cap = post.space.encode(truth)
     there = predicted((height, width, SURE, cap))
-    rounds = (Round(1), Round(1), *(Round(1, 1, 2),) * 6)
-    spent = [counted(there, post(**truth), Budget(rounds, patience=patience))[0] for patience in (1, 2, None)]
+    moves = (Scan(1), Probe(1), *(Step(1, 1, 2),) * 6)
+    spent = [counted(there, post(**truth), Budget(moves, patience=patience))[0] for patience in (1, 2, None)]
     assert spent == [1 + 3 + 3, 1 + 3 + 3 * 2, 1 + 3 + 3 * 6]
     away = predicted((0.1, 0.9, SURE, 0.1))
-    few, found = counted(away, post(**truth), Budget(rounds, patience=1))
+    few, found = counted(away, post(**truth), Budget(moves, patience=1))
     assert few > spent[0] and found["height"] > 0.6
 
 
 def test_only_rivals_of_the_best_combination_take_part():
     target = post(height=1.0, width=0.5, form="bare")
     start = predicted((0.44, 0.44, [0.4, 0.3, 0.3], 0.9))
-    rounds = [(Round(3), Round(3, rival=rival)) for rival in (np.inf, 1.5)]
-    everyone, rivals = (counted(start, target, Budget(each))[0] for each in rounds)
+    budgets = [Budget((Scan(3), Probe(3, rival=rival))) for rival in (np.inf, 1.5)]
+    everyone, rivals = (counted(start, target, budget)[0] for budget in budgets)
     assert everyone == 3 + 3 + 3 + 2 and rivals == 3 + 2
 
 
@@ -283,4 +289,4 @@ def test_a_start_that_is_predicted_as_well_is_tried_once():
     known = {"height": 1.0, "width": 0.5, "form": "square", "cap": 0.5}
     height, width, _, cap = post.space.encode(known).astype(np.float32)
     start = predicted((height, width, SURE, cap))
-    assert counted(start, post(), Budget((Round(1),)), [known])[0] == 1
+    assert counted(start, post(), Budget((Scan(1),)), [known])[0] == 1

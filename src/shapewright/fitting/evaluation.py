@@ -10,13 +10,13 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.fitting.learning import Lesson, learn, limits_of
-from shapewright.fitting.replicas import refined_from
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Prediction
 from shapewright.prediction.inference import Metrics, score
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
+from shapewright.search.search import SearchStart, refine
 from shapewright.settings import Cameras, Settings
 
 REFINED = 100
@@ -98,5 +98,8 @@ def _refined(crew: Workers, lesson: Lesson, settings: Settings, stages: Stages, 
     judge = Judge.of(shapes, settings)
     prediction = lesson.predictor.infer(held_out.shapes)
     _, fields = judge.nearest(crew.build(prediction.decode()))
-    refined = refined_from(prediction, crew, judge, range(len(fields)), fields, lesson, stages)
+    stages.begin("refine", 1)
+    criterion = judge.criterion(range(len(fields)), fields)
+    start, budget = SearchStart(prediction), lesson.budget(settings)
+    refined = refine(start, criterion, crew, budget, settings.seed, stages.step)
     return score(Prediction.of(crew.procedure.space, refined), held_out.targets, held_out.active)

@@ -24,8 +24,7 @@ from shapewright.prediction.vgg import VGG19Network, find_weights
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.rendering.cameras import PAGE, Camera, starting_views
-from shapewright.search.budgets import QUICK, THOROUGH, Budget
-from shapewright.search.drawing_budgets import DRAWN, DRAWN_THOROUGH
+from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, Budget
 from shapewright.settings import Building, Searching, Settings
 from shapewright.shapes import Drawing, Shape
 

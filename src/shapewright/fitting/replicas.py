@@ -11,10 +11,10 @@ import numpy as np
 from shapewright.building import Build, Workers
 from shapewright.fitting.learning import Lesson
 from shapewright.fitting.start import Start
-from shapewright.judging.judge import Judge, Rows
-from shapewright.parameters import Parameters, Prediction
+from shapewright.judging.judge import Judge
+from shapewright.parameters import Parameters
 from shapewright.progress import Stages
-from shapewright.search.search import refine
+from shapewright.search.search import SearchStart, refine
 from shapewright.shapes import Floats, Ints
 
 _NEAR = 0.5
@@ -68,7 +68,7 @@ def replicate(
 ) -> Replicas:
     """Try the predicted parameters, and search from there for references whose replica was not near before.
 
-    new: see ``refine``.
+    new: see ``SearchStart``.
     """
     settings, known = judge.settings, [build.parameters if build else None for build in replicas.builds]
     rows = np.flatnonzero(~(replicas.distances <= _NEAR * judge.metric.threshold))
@@ -80,37 +80,10 @@ def replicate(
     stages.answer(dict(zip(judge.references.names, vectors, strict=True)), "predicted")
     if settings.refine == "off" or not len(rows):
         return replicas
-    fields, before = replicas.fields[rows], [known[i] for i in rows]
-    refined = refined_from(prediction.take(rows), crew, judge, rows, fields, lesson, stages, before, new)
+    stages.begin("refine", 1)
+    start = SearchStart(prediction.take(rows), [known[i] for i in rows], new)
+    criterion = judge.criterion(rows, replicas.fields[rows])
+    refined = refine(start, criterion, crew, lesson.budget(settings), settings.seed, stages.step)
     for i, values in zip(rows, refined, strict=True):
         vectors[i] = values
     return replicas.tried(vectors, crew, judge)
-
-
-def refined_from(
-    prediction: Prediction,
-    crew: Workers,
-    judge: Judge,
-    rows: Rows,
-    fields: Rows,
-    lesson: Lesson,
-    stages: Stages,
-    known: Sequence[Parameters | None] | None = None,
-    new: AbstractSet[str] | None = None,
-) -> list[Parameters]:
-    """Search from a prediction for some references. rows: of these; fields: to go by; known, new: see ``refine``."""
-    stages.begin("refine", 1)
-    return refine(
-        prediction,
-        crew,
-        judge.measure(rows, fields),
-        lesson.budget(judge.settings),
-        judge.settings.seed,
-        known,
-        judge.goal,
-        stages.step,
-        new=new,
-        enough=judge.enough,
-        parts=judge.parts,
-        doubt=judge.surprise_cost,
-    )

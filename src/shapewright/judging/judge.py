@@ -16,7 +16,7 @@ from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import Measures, Target
 from shapewright.references import Collection
-from shapewright.search.objective import Measure, measure_of
+from shapewright.search.objective import Criterion, Measure, measure_of
 from shapewright.settings import Settings
 from shapewright.shapes import Floats, Ints, Mesh, Shape
 from shapewright.threads import in_threads
@@ -60,21 +60,6 @@ class Judge:
         """The cost up to which a replica is surely compatible, see ``Target``."""
         return self.targets[0].goal
 
-    @property
-    def enough(self) -> float:
-        """A cost at which a search may end, see ``Target``."""
-        return self.targets[0].enough
-
-    @property
-    def parts(self) -> tuple[slice, ...]:
-        """Of the residuals, coarse to fine, see ``Target``."""
-        return self.targets[0].parts
-
-    @property
-    def surprise_cost(self) -> float:
-        """What it costs a search to choose something unlikely, see ``Target``."""
-        return self.targets[0].surprise_cost
-
     def distances(self, builds: Sequence[Build], rows: Rows | None = None) -> Floats:
         """Distance of one build for each reference, (N,); NaN where it cannot be measured.
 
@@ -99,13 +84,19 @@ class Judge:
         return in_threads(lambda pair: self.targets[pair[0]].cost(pair[1]), pairs, self.settings.workers)
 
     def measure(self, rows: Rows, fields: Rows | None = None) -> Measure:
-        """What a search for some references goes by; it gets replicas with their references' places among ``rows``.
+        """The residuals for a search for some references; it gets replicas with their places among ``rows``.
 
         fields: the light field to go by for each, the first by default.
         """
         pairs = zip(self._targets(rows), np.zeros(len(rows), int) if fields is None else fields, strict=True)
         objectives = in_threads(lambda pair: pair[0].objective(int(pair[1])), pairs, self.settings.workers)
         return measure_of(objectives, self.settings.workers)
+
+    def criterion(self, rows: Rows, fields: Rows | None = None) -> Criterion:
+        """What a search for some references makes small, and how far; fields: as for ``measure``."""
+        target = self.targets[0]
+        measure = self.measure(rows, fields)
+        return Criterion(measure, target.parts, target.goal, target.enough, target.surprise_cost)
 
     def compatible(self, measures: Sequence[Measures]) -> NDArray[np.bool_]:
         """Which replicas count as the same as their references, (N,)."""

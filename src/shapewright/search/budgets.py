@@ -1,97 +1,147 @@
-"""How long to search for parameters, and how: the rounds of a refinement."""
+"""How long to search for parameters, and how: moves, one after the other."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
-_PROBE = 0.04
+from shapewright.search.moves import (
+    BuildingMove,
+    Move,
+    Probe,
+    Return,
+    Scan,
+    Step,
+    SwitchChoices,
+    UseScale,
+    evaluations,
+)
 
-
-@dataclass(frozen=True)
-class Round:
-    """One round of the search: how many combinations of choices take part, and what is tried for each.
-
-    A combination is first built as it is, then once with each scalar moved a little; only from its third round on are
-    there ``steps`` along the model of its residuals, and ``strays``, random points around its best. near: only for
-    references whose cost is above the goal but at most so many times it, and only while it is. afresh: instead of steps
-    the scalars are each moved a little again, because the model has aged; by ``probe``, encoded, and to ``both`` sides
-    where the model is to be exact enough for the search to end at the least cost. part: which of the parts of the
-    residuals it goes by; models are kept where that changes, and combinations beyond those that take part are dropped.
-    other: instead of all combinations those take part that differ from the best one in one choice ("choice"), these and
-    the likeliest ("likely"), or these and its own with all scalars at their defaults ("plain"); the best one itself
-    rests until the last part, or until a round that has it ``back``. rival: a combination takes part only while its
-    cost is at most so many times the best's.
-    """
-
-    combinations: int
-    steps: int = 2
-    strays: int = 0
-    near: float | None = None
-    afresh: bool = False
-    probe: float = _PROBE
-    both: bool = False
-    part: int = 0
-    other: Literal["choice", "likely", "plain"] | None = None
-    back: bool = False
-    rival: float = np.inf
+SPREAD = 0.1
+"""Of the first random points, encoded. By trial on tables."""
+_FINE = 0.01
+"""Probes of drawings at the finest scale, whose pictures change within a pixel. By trial on drawings."""
 
 
 @dataclass(frozen=True)
 class Budget:
-    """How long to search. simple: so many starts are not predicted: the defaults, then these but for one choice.
+    """How long to search.
 
-    patience: after the first two rounds a search ends that so many rounds in a row have brought next to nothing.
+    moves: the first is a Scan, but for a UseScale before it.
+    simple: this many of the first combinations are not predicted: the defaults, then those but for one choice.
+    patience: from the third round of building on, a search ends after this many rounds in a row without progress.
+    spread: standard deviation of the first random points around the best, encoded.
     """
 
-    rounds: tuple[Round, ...]
+    moves: tuple[Move, ...]
     simple: int = 0
     patience: int | None = None
+    spread: float = SPREAD
+
+    @property
+    def combinations(self) -> int:
+        """How many combinations a search starts with."""
+        return next(move.combinations for move in self.moves if isinstance(move, Scan))
+
+    @property
+    def rounds(self) -> int:
+        """How often shapes are built."""
+        return sum(isinstance(move, BuildingMove) for move in self.moves)
 
     def evaluations(self, scalars: int) -> int:
         """Shapes built for each reference, at most, where so many scalars are free."""
-        return int(np.sum(self._spent(scalars)))
+        return sum(evaluations(move, scalars) for move in self.moves)
 
-    def within(self, evaluations: float, scalars: int) -> Budget:
-        """The first rounds that fit in so many shapes, at least one combination of one."""
-        fit = int((np.cumsum(self._spent(scalars)) <= evaluations).sum())
+    def within(self, most: float, scalars: int) -> Budget:
+        """The first moves that fit in this many shapes, up to one that builds; at least one combination of a Scan."""
+        fit = int((np.cumsum([evaluations(move, scalars) for move in self.moves]) <= most).sum())
+        while fit and not isinstance(self.moves[fit - 1], BuildingMove):
+            fit -= 1
         if not fit:
-            return Budget((Round(max(1, min(self.rounds[0].combinations, int(evaluations)))),))
-        return replace(self, rounds=self.rounds[:fit])
-
-    def _spent(self, scalars: int) -> list[int]:
-        spent, fresh = [], True
-        for i, r in enumerate(self.rounds):
-            start = i == 0 or r.other is not None
-            probes = scalars * (2 if r.both else 1)
-            spent.append(r.combinations * (1 if start else probes if fresh or r.afresh else r.steps + r.strays))
-            fresh = start
-        return spent
+            return Budget((Scan(max(1, min(self.combinations, int(most)))),))
+        return replace(self, moves=self.moves[:fit])
 
 
-def _exact(probe: float, times: int = 1) -> tuple[Round, ...]:
-    """A model of the best combination made afresh from both sides, and followed, so often."""
-    return (Round(1, afresh=True, probe=probe, both=True), Round(1, 3)) * times
+def _exactly(size: float, times: int = 1) -> tuple[Move, ...]:
+    """A new model of the best combination from both sides of each scalar, and three steps along it, some times."""
+    return (Probe(1, size, both=True, again=True), Step(1, 3)) * times
 
 
-_OTHERS = (
-    Round(24, other="likely"),
-    *(Round(4, rival=4.0), Round(4, 3, rival=4.0), Round(3, 2, 2, rival=2.5)),
-    Round(2, afresh=True, both=True, probe=0.05, rival=2.0),
-    *(Round(2, 3, rival=2.0),) * 2,
-    Round(2, 2, 4, back=True),
+# Eight combinations are built, three get a model, two follow theirs. The best one is then followed exactly, and
+# explored further for references that are incompatible by less than 40 %: where a longer search decides anything.
+# Chosen on the 133 furniture and cuboid tables of docs/benchmarks.md, "The search itself".
+QUICK = Budget(
+    (
+        *(Scan(8), Probe(3), Step(2, scatter=2)),
+        *_exactly(0.05),
+        *(Step(1, scatter=4, near=1.4),) * 8,
+    )
 )
-"""Other choices tried with the scalars that were found; most soon cost far more than the best one."""
-QUICK = Budget((Round(8), Round(3), Round(2, 2, 2), *_exact(0.05), *(Round(1, 2, 4, near=1.4),) * 8))
+
+# Other choices with the scalars found by then. Late, the right choice is better at once; where it is not, its rivals
+# are followed only while they cost little more.
+_OTHERS: tuple[Move, ...] = (
+    *(SwitchChoices("likely"), Scan(24)),
+    *(Probe(4, rival=4.0), Step(4, 3, rival=4.0), Step(3, scatter=2, rival=2.5)),
+    Probe(2, 0.05, both=True, again=True, rival=2.0),
+    *(Step(2, 3, rival=2.0),) * 2,
+    *(Return(keep=2), Step(2, scatter=4)),
+)
+
+# A wide search first. Then the best combination is followed exactly, from shorter and shorter probes, and other choices
+# are tried after each turn: five times, chosen while looking at chairs (docs/benchmarks.md, "What more samples and a
+# thorough search find").
 THOROUGH = Budget(
     (
-        *(Round(24), Round(8), Round(6, 2, 4), Round(4, 2, 4), Round(3, 2, 6), *(Round(2, 2, 8),) * 4),
-        *(*_exact(0.06, 3), *_OTHERS),
-        *(*_exact(0.06, 2), *_OTHERS),
-        *(*_exact(0.04, 2), *_exact(0.025, 2), *_OTHERS),
-        *(*_exact(0.025, 2), *_OTHERS) * 2,
-        *(*_exact(0.025, 2), *_exact(0.015, 3)),
+        *(Scan(24), Probe(8), Step(6, scatter=4), Step(4, scatter=4), Step(3, scatter=6), *(Step(2, scatter=8),) * 4),
+        *(*_exactly(0.06, 3), *_OTHERS),
+        *(*_exactly(0.06, 2), *_OTHERS),
+        *(*_exactly(0.04, 2), *_exactly(0.025, 2), *_OTHERS),
+        *(*_exactly(0.025, 2), *_OTHERS) * 2,
+        *(*_exactly(0.025, 2), *_exactly(0.015, 3)),
     )
+)
+
+
+def _followed(combinations: int, turns: int = 1, size: float = 0.04) -> tuple[Move, ...]:
+    """New models and three steps along them, some times."""
+    return (Probe(combinations, size, again=True), Step(combinations, 3)) * turns
+
+
+def _finer(scale: int, combinations: tuple[int, ...], turns: int) -> tuple[Move, ...]:
+    """From new starts at one scale by finer and finer ones, with fewer combinations at each."""
+    moves: tuple[Move, ...] = (Probe(combinations[0]), Step(combinations[0], 3), *_followed(combinations[0], turns))
+    for finer, count in enumerate(combinations[1:], scale + 1):
+        moves += (UseScale(finer, keep=count), *_followed(count, turns))
+    return moves
+
+
+_SINGLE: tuple[Move, ...] = (SwitchChoices("single", scale=1), Scan(20))
+
+# Drawings are built and measured quickly, but what pictures say changes more from place to place. Lines that are thin
+# overlap nothing at first, so a search goes by one scale of blur after the other. A part too many or too few changes
+# too little for the predicted choices to be trusted, so others are tried, and the simple forms too. Chosen on the worst
+# of the real drawings of docs/benchmarks.md.
+DRAWN = Budget(
+    (
+        *(Scan(16), *_finer(0, (4, 3, 2, 1), turns=1)),
+        *(*_SINGLE, *_finer(1, (4, 2, 2), turns=1)),
+        *_followed(1, 2, _FINE),
+    ),
+    simple=6,
+)
+
+# The same for longer, and the simple forms with the best choices: twice, the best one alone and then all beside it.
+DRAWN_THOROUGH = Budget(
+    (
+        *(Scan(22), *_finer(0, (5, 3, 2, 2), turns=2)),
+        *(SwitchChoices("defaults", scale=0), Scan(1), *_finer(0, (1, 1, 1, 2), turns=2)),
+        *(*_SINGLE, *_finer(1, (5, 3, 2), turns=2)),
+        *(SwitchChoices("defaults", scale=0), Scan(20), *_finer(0, (8, 3, 2, 2), turns=2)),
+        *(*_SINGLE, *_finer(1, (5, 3, 2), turns=2)),
+        *(UseScale(2, keep=1), *_followed(1, 2)),
+        *(UseScale(3, keep=1), *_followed(1, 4), *_followed(1, 4, _FINE)),
+    ),
+    simple=10,
 )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Protocol
 
 from shapewright.shapes import Floats, Shape
@@ -31,3 +33,24 @@ def measure_of(objectives: Sequence[Objective | None], threads: int | None = Non
         return objective.residual(pair[1]) if objective else None
 
     return lambda pairs: in_threads(residual, pairs, threads)
+
+
+@dataclass(frozen=True, eq=False)
+class Criterion:
+    """What a search for several references makes small, and how far.
+
+    The cost of a replica is the sum of absolute values of its residual, or of a part of it.
+
+    measure: the residuals of replicas.
+    parts: of the residuals, coarse to fine, that moves may go by; the whole by default.
+    goal: the cost up to which a reference is surely compatible; -inf where costs do not tell.
+    enough: a cost, by the last part, at which the search for a reference ends.
+    surprise_cost: how much a cost rises with minus the logarithm of the probability of the choices: of those that look
+        alike the likelier wins.
+    """
+
+    measure: Measure
+    parts: Sequence[slice] = (slice(None),)
+    goal: float = -math.inf
+    enough: float = -math.inf
+    surprise_cost: float = 0.0

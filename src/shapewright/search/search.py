@@ -1,283 +1,229 @@
 """Refinement: a search on the procedure itself, from the prediction, by the measure that judges.
 
 The likeliest combinations of discrete choices are tried; the scalars of the best are moved by Gauss-Newton steps on
-what still differs from the reference; references that end just short of compatible are explored further, at random as
-well. All references advance together, so that shapes are built and measured in large batches.
+what still differs from the reference. All references advance together, move by move, so that shapes are built and
+measured in large batches.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
-from shapewright.parameters import Parameters, ParameterSpace, Prediction, Scalar
-from shapewright.search.budgets import QUICK, Budget, Round
+from shapewright.parameters import Parameters, Prediction
+from shapewright.search.budgets import QUICK, Budget
+from shapewright.search.candidates import Bounds, Candidate, points
 from shapewright.search.combinations import others, plain
-from shapewright.search.descent import bounded_step, learn_slope
-from shapewright.search.objective import Measure
+from shapewright.search.moves import BuildingMove, Probe, Return, Scan, Step, SwitchChoices
+from shapewright.search.objective import Criterion, Measure
+from shapewright.shapes import Floats
 
-Floats = NDArray[np.float64]
-
-_REACH, _FARTHEST = 0.15, 0.3
-_SPREAD = 0.1
-_FLOORS = (20.0, 1000.0)
 _MOVED = 0.98
-"""Share of its cost that a search must have left after a round that brought something."""
+"""Share of its cost that a search must have left after a round that brought something. By trial on tables."""
 _SAME = 1e-6
 """Between encoded starts that are one: predictions are of single precision."""
 _LIKELIEST = 4
-"""Combinations that are tried again because they are the likeliest."""
-_LOCAL = 0.1
-"""How far a point may lie from the best one for the linear model to learn from it."""
+"""Combinations that are tried again because they are the likeliest. By trial on shelves and chairs."""
 
 
-@dataclass(eq=False)
-class _Arm:
-    """One combination of discrete values: the best scalars found for it, and a linear model around them.
+@dataclass(frozen=True, eq=False)
+class SearchStart:
+    """Where the searches for N references begin, and where they may go.
 
-    cost: with the doubt, what it costs that the combination is unlikely.
+    prediction: for the references.
+    known: for each reference parameters to start from as well, or None.
+    new: names of scalars that are new or other than when the known ones were searched for; with it, no more is spent
+        where these turn out the best and none is new.
+    within: the least and the greatest encoded scalars of each reference, (N, P); the whole space by default.
     """
 
-    centre: Floats
-    doubt: float = 0.0
-    known: bool = False
-    cost: float = np.inf
-    residual: Floats | None = None
-    slopes: Floats | None = None
-    reach: float = _REACH
-    spread: float = _SPREAD
+    prediction: Prediction
+    known: Sequence[Parameters | None] | None = None
+    new: AbstractSet[str] | None = None
+    within: tuple[Floats, Floats] | None = None
 
 
 @dataclass(eq=False)
 class _Search:
-    """The search for one reference."""
+    """The search for one reference.
 
-    arms: list[_Arm]
+    row: of the reference in the prediction.
+    candidates: those that take part.
+    part: of the residuals, by which they are compared.
+    best: parameters of the least cost by the present part; None before any shape was measured.
+    resting: the best candidate, while others are tried.
+    idle: rounds in a row without progress.
+    """
+
+    row: int
+    candidates: list[Candidate]
+    bounds: Bounds
     rng: np.random.Generator
-    low: Floats
-    high: Floats
+    part: slice
     best: Parameters | None = None
-    cost: float = field(default=np.inf)
-    kept: _Arm | None = None
+    cost: float = np.inf
+    resting: Candidate | None = None
     idle: int = 0
     done: bool = False
 
-    def leave(self, best: _Arm, starts: Sequence[_Arm]) -> None:
-        """Go on from other starts, while the best arm rests."""
-        if starts:
-            self.kept, self.arms = best, list(starts)
-
-    def focus(self, space: ParameterSpace, part: slice, combinations: int, last: bool) -> None:
-        """Go by another part of the residuals, with the best of the arms."""
-        self.arms = self.arms[:combinations]
-        if last and self.kept:
-            self.arms, self.kept = [self.kept, *self.arms], None
-        for arm in self.arms:
-            arm.reach = _REACH
-            arm.cost = np.inf if arm.residual is None else float(np.abs(arm.residual[part]).sum()) + arm.doubt
-        self.arms.sort(key=lambda arm: arm.cost)
-        if self.arms[0].residual is not None:
-            self.best, self.cost = space.canonical(space.decode(self.arms[0].centre)), self.arms[0].cost
-
-    def settled(self, space: ParameterSpace, new: AbstractSet[str]) -> bool:
-        """Whether an earlier search ended at the best there is, and nothing that matters there is new."""
-        best = self.arms[0]
-        return best.known and best.residual is not None and not new & set(space.active(space.decode(best.centre)))
-
-    def worth(self, near: float | None, goal: float | None) -> bool:
-        """Whether a round for references near the goal is for this one; not where an earlier search ended already."""
-        if near is None:
-            return True
-        return goal is not None and goal < self.cost <= near * goal and not self.arms[0].known
-
-
-@dataclass(frozen=True, eq=False)
-class _Trial:
-    """A point to build: for which reference and which arm."""
-
-    reference: int
-    arm: _Arm
-    point: Floats
+    def sort(self) -> None:
+        self.candidates.sort(key=lambda candidate: candidate.cost)
 
 
 def refine(
-    prediction: Prediction,
+    start: SearchStart,
+    criterion: Criterion,
     crew: Workers,
-    measure: Measure,
     budget: Budget = QUICK,
     seed: int = 0,
-    known: Sequence[Parameters | None] | None = None,
-    goal: float | None = None,
     progress: Callable[[int, int], None] | None = None,
-    within: tuple[Floats, Floats] | None = None,
-    spread: float = _SPREAD,
-    enough: float = -np.inf,
-    new: AbstractSet[str] | None = None,
-    parts: Sequence[slice] = (slice(None),),
-    doubt: float = 0.0,
 ) -> list[Parameters]:
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
-    known: for each reference parameters to start from as well. new: names of scalars that are new or other than when
-    the known ones were searched for; with it, no more is spent where these turn out the best and none is new. goal: the
-    cost up to which a reference counts as compatible; without it no round is spent on those that are near. within: the
-    least and the greatest encoded scalars of each reference, (N, P), the whole space by default. spread: of the first
-    random points, encoded. parts: of the residuals, coarse to fine, that rounds may go by; a round that asks for a
-    further one goes by the last. enough: a cost, by the last part, at which the search for a reference ends. doubt: how
-    much the cost of a choice rises with minus the logarithm of the probability predicted for it: of those that look
-    alike the likelier wins. The cost never rises above that of the prediction, where there is one part. A reference's
-    result does not depend on the other references.
+    progress: is told how many of the budget's rounds are over. The cost never rises above that of the prediction, where
+    the criterion has one part. A reference's result does not depend on the other references.
     """
-    space, count = prediction.space, len(prediction)
-    widest = budget.rounds[0].combinations
-    low, high = within or (np.zeros((count, len(space))), np.ones((count, len(space))))
-    searches = []
-
-    def arm(i: int, centre: Floats, known: bool = False) -> _Arm:
-        unlikely = doubt and doubt * prediction.surprise(i, centre)
-        return _Arm(centre, unlikely, known, spread=spread)
-
-    for i in range(count):
-        centres = prediction.likeliest(i, widest - budget.simple)
-        centres += [space.encode(space.defaults), *others(space, space.encode(space.defaults))][: budget.simple]
-        arms = [arm(i, centre) for centre in centres]
-        if known and (given := known[i]) is not None:
-            start = arm(i, space.encode(given), known=True)
-            apart = [other for other in arms if np.abs(other.centre - start.centre).max() > _SAME]
-            arms = [*apart[: max(1, widest - 1)], start]
-        searches.append(_Search(arms, np.random.default_rng([seed, i]), low[i], high[i]))
-    fallback = [space.canonical(space.decode(search.arms[0].centre)) for search in searches]
-    part = parts[0]
-    for number, turn in enumerate(budget.rounds):
-        asked: list[_Trial] = []
-        before, part = part, parts[min(turn.part, len(parts) - 1)]
-        for i, search in enumerate(searches):
-            search.arms.sort(key=lambda arm: arm.cost)
-            search.done |= before == parts[-1] and search.cost <= enough
-            if search.done or (new is not None and search.settled(space, new)):
-                continue
-            best = search.arms[0]
-            if part != before or turn.back:
-                search.focus(space, part, turn.combinations, turn.back or part == parts[-1])
-            if turn.other and best.residual is not None:
-                likely = prediction.likeliest(i, _LIKELIEST) if turn.other == "likely" else ()
-                starts = others(space, best.centre, likely)
-                if turn.other == "plain":
-                    starts = [plain(space, start) for start in (best.centre, *starts)]
-                search.leave(best, [arm(i, start) for start in starts])
-            if search.worth(turn.near, goal):
-                for one in search.arms[: turn.combinations]:
-                    if one.cost > turn.rival * search.arms[0].cost:
-                        break
-                    one.slopes = None if turn.afresh else one.slopes
-                    asked += [_Trial(i, one, point) for point in _propose(space, one, turn, search, part)]
-        vectors = [space.canonical(space.decode(trial.point)) for trial in asked]
-        residuals = _residuals(measure, [trial.reference for trial in asked], crew.build(vectors))
-        costs = {trial.reference: searches[trial.reference].cost for trial in asked}
-        _learn(searches, asked, vectors, residuals, part)
-        if budget.patience is not None and number > 1:
-            for i, cost in costs.items():
-                searches[i].idle = searches[i].idle + 1 if searches[i].cost >= _MOVED * cost else 0
-                searches[i].done |= searches[i].idle >= budget.patience
-        if progress:
-            progress(number + 1, len(budget.rounds))
+    space, parts = start.prediction.space, criterion.parts
+    searches = [_begun(start, criterion, budget, seed, row) for row in range(len(start.prediction))]
+    fallback = [space.canonical(space.decode(search.candidates[0].vector)) for search in searches]
+    scale, rounds = 0, 0
+    for move in budget.moves:
+        going = [search for search in searches if not search.done]
+        for search in going:
+            search.sort()
+        if isinstance(move, BuildingMove):
+            _built(going, move, start, criterion, crew, budget.patience if rounds > 1 else None)
+            rounds += 1
+            if progress:
+                progress(rounds, budget.rounds)
+            continue
+        before = scale
+        if not isinstance(move, Return) and move.scale is not None:
+            scale = min(move.scale, len(parts) - 1)
+        for search in going:
+            best = search.candidates[0]
+            if scale != before or isinstance(move, Return):
+                keep = len(search.candidates) if isinstance(move, SwitchChoices) else move.keep
+                _compare(search, start, parts[scale], keep, isinstance(move, Return) or scale == len(parts) - 1)
+            if isinstance(move, SwitchChoices) and best.residual is not None:
+                _switch(search, best, move, start, criterion, budget)
     for search in searches:
-        if search.kept:  # the rounds were cut short while the best one rested
-            search.focus(space, parts[-1], len(search.arms), last=True)
+        if search.resting:  # the budget was cut while the best one rested
+            _compare(search, start, parts[-1], len(search.candidates), back=True)
     return [search.best or predicted for search, predicted in zip(searches, fallback, strict=True)]
 
 
-def _propose(space: ParameterSpace, arm: _Arm, turn: Round, search: _Search, part: slice) -> Iterator[Floats]:
-    """Points inside the limits: the arm's centre, then one for each free scalar, then steps and strays."""
-    if arm.residual is None:
-        yield arm.centre
-        return
-    active = set(space.active(space.decode(arm.centre)))
-    free = np.array([isinstance(parameter, Scalar) and parameter.name in active for parameter in space])
-    free &= search.high > search.low
-    if not free.any():
-        return
-    if arm.slopes is None:
-        for p in np.flatnonzero(free):
-            above, below = search.high[p] - arm.centre[p], arm.centre[p] - search.low[p]
-            one = turn.probe if turn.probe <= above else -turn.probe
-            for side in (min(turn.probe, above), -min(turn.probe, below)) if turn.both else (one,):
-                point = arm.centre.copy()
-                point[p] += side
-                yield point
-        return
-    slopes, residual = np.ascontiguousarray(arm.slopes[free, part]), arm.residual[part]
-    for k in range(turn.steps):
-        reach = arm.reach * 0.4**k
-        low = np.clip(search.low - arm.centre, -reach, 0.0)[free]
-        high = np.clip(search.high - arm.centre, 0.0, reach)[free]
-        point = arm.centre.copy()
-        point[free] += bounded_step(slopes, residual, low, high, _FLOORS[k % len(_FLOORS)])
-        yield point
-    for _ in range(turn.strays):
-        stray = search.rng.standard_normal(len(free)) * arm.spread
-        yield np.where(free, np.clip(arm.centre + stray, search.low, search.high), arm.centre)
+def _begun(start: SearchStart, criterion: Criterion, budget: Budget, seed: int, row: int) -> _Search:
+    """The search for one reference with its first candidates."""
+    space, prediction, most = start.prediction.space, start.prediction, budget.combinations
+    vectors = prediction.likeliest(row, most - budget.simple)
+    vectors += [space.encode(space.defaults), *others(space, space.encode(space.defaults))][: budget.simple]
+    candidates = [_candidate(start, criterion, budget, row, vector) for vector in vectors]
+    if start.known and (given := start.known[row]) is not None:
+        known = _candidate(start, criterion, budget, row, space.encode(given))
+        known.known = True
+        apart = [other for other in candidates if np.abs(other.vector - known.vector).max() > _SAME]
+        candidates = [*apart[: max(1, most - 1)], known]
+    low, high = (limit[row] for limit in start.within) if start.within else (np.zeros(len(space)), np.ones(len(space)))
+    return _Search(row, candidates, Bounds(low, high), np.random.default_rng([seed, row]), criterion.parts[0])
 
 
-def _residuals(measure: Measure, references: Sequence[int], builds: Sequence[Build]) -> list[Floats | None]:
-    built = [k for k, build in enumerate(builds) if build.shape is not None]
-    found = measure([(references[k], shape) for k in built if (shape := builds[k].shape) is not None])
-    residuals: list[Floats | None] = [None] * len(builds)
-    for k, residual in zip(built, found, strict=True):
-        residuals[k] = residual
-    return residuals
+def _candidate(start: SearchStart, criterion: Criterion, budget: Budget, row: int, vector: Floats) -> Candidate:
+    cost = criterion.surprise_cost
+    return Candidate(vector, cost and cost * start.prediction.surprise(row, vector), spread=budget.spread)
 
 
-def _learn(
-    searches: Sequence[_Search],
-    asked: Sequence[_Trial],
-    vectors: Sequence[Parameters],
-    residuals: Sequence[Floats | None],
-    part: slice,
+def _compare(search: _Search, start: SearchStart, part: slice, keep: int, back: bool) -> None:
+    """Go by a part of the residuals with the best of the candidates, and with the one that rested if it comes back."""
+    search.part, search.candidates = part, search.candidates[:keep]
+    if back and search.resting:
+        search.candidates, search.resting = [search.resting, *search.candidates], None
+    for candidate in search.candidates:
+        candidate.go_by(part)
+    search.sort()
+    best, space = search.candidates[0], start.prediction.space
+    if best.residual is not None:
+        search.best, search.cost = space.canonical(space.decode(best.vector)), best.cost
+
+
+def _switch(
+    search: _Search, best: Candidate, move: SwitchChoices, start: SearchStart, criterion: Criterion, budget: Budget
 ) -> None:
-    """Keep the best of each reference, and move each arm to the best point found for it."""
-    measured: dict[int, tuple[_Arm, list[tuple[float, Floats, Floats]]]] = {}
-    for trial, vector, residual in zip(asked, vectors, residuals, strict=True):
-        points = measured.setdefault(id(trial.arm), (trial.arm, []))[1]
-        if residual is None:
-            continue
-        cost = float(np.abs(residual[part]).sum()) + trial.arm.doubt
-        points.append((cost, trial.point, residual))
-        search = searches[trial.reference]
-        if cost < search.cost:
-            search.best, search.cost = vector, cost
-    for arm, points in measured.values():
-        searching = arm.slopes is not None
-        if arm.residual is not None:
-            _model(arm, points)
-        best = min(points, key=lambda found: found[0], default=None)
-        if best and best[0] < arm.cost:
-            if searching:
-                moved = float(np.abs(best[1] - arm.centre).max())
-                arm.reach = max(min(2.0 * moved, _FARTHEST), 0.5 * arm.reach)
-                arm.spread *= 1.3
-            arm.cost, arm.centre, arm.residual = best
-        elif searching:
-            arm.reach *= 0.4
-            arm.spread *= 0.75
+    """Go on from other choices than the best candidate's, where there are some."""
+    space = start.prediction.space
+    likely = start.prediction.likeliest(search.row, _LIKELIEST) if move.to == "likely" else ()
+    vectors = others(space, best.vector, likely)
+    if move.to == "defaults":
+        vectors = [plain(space, vector) for vector in (best.vector, *vectors)]
+    if vectors:
+        search.resting = best
+        search.candidates = [_candidate(start, criterion, budget, search.row, vector) for vector in vectors]
 
 
-def _model(arm: _Arm, points: Sequence[tuple[float, Floats, Floats]]) -> None:
-    """Make the linear model from the first points, each along one axis; let it learn from others, the nearest last."""
-    assert arm.residual is not None
-    if arm.slopes is None:
-        arm.slopes = np.zeros((len(arm.centre), len(arm.residual)))
-        if points:
-            steps = np.array([point - arm.centre for _, point, _ in points])
-            changes = np.array([residual - arm.residual for _, _, residual in points])
-            arm.slopes += steps.T @ changes / np.maximum((steps * steps).sum(axis=0), 1e-12)[:, None]
-        return
-    near = [(float(np.abs(point - arm.centre).max()), point, residual) for _, point, residual in points]
-    for length, point, residual in sorted(near, key=lambda found: -found[0]):
-        if length <= _LOCAL:
-            learn_slope(arm.slopes, point - arm.centre, residual - arm.residual)
+def _built(
+    going: Sequence[_Search],
+    move: BuildingMove,
+    start: SearchStart,
+    criterion: Criterion,
+    crew: Workers,
+    patience: int | None,
+) -> None:
+    """Build and measure what a move tries in each search, learn from it, and see which searches end."""
+    space = start.prediction.space
+    asked = [
+        (search, candidate, vector)
+        for search in going
+        for candidate in _taking_part(search, move, criterion.goal)
+        for vector in points(candidate, move, space, search.bounds, search.part, search.rng)
+    ]
+    parameters = [space.canonical(space.decode(vector)) for _, _, vector in asked]
+    residuals = _residuals(criterion.measure, [search.row for search, _, _ in asked], crew.build(parameters))
+    before = {search: search.cost for search, _, _ in asked}
+    measured: dict[Candidate, list[tuple[float, Floats, Floats]]] = {candidate: [] for _, candidate, _ in asked}
+    for (search, candidate, vector), values, residual in zip(asked, parameters, residuals, strict=True):
+        if residual is not None:
+            cost = candidate.cost_of(residual, search.part)
+            measured[candidate].append((cost, vector, residual))
+            if cost < search.cost:
+                search.best, search.cost = values, cost
+    for candidate, found in measured.items():
+        candidate.learn(found)
+    for search in going:
+        if patience is not None and search in before:
+            search.idle = search.idle + 1 if search.cost >= _MOVED * before[search] else 0
+            search.done |= search.idle >= patience
+        search.done |= search.part == criterion.parts[-1] and search.cost <= criterion.enough
+        search.done |= _known_is_best(search, start)
+
+
+def _taking_part(search: _Search, move: BuildingMove, goal: float) -> list[Candidate]:
+    """The candidates that a move tries something for, the best first."""
+    best = search.candidates[0]
+    near = move.near if isinstance(move, Step) else None
+    if near is not None and (best.known or not goal < search.cost <= near * goal):
+        return []  # a known best was explored by the search that found it
+    dearest = np.inf if isinstance(move, Scan) else move.rival * best.cost
+    some = [candidate for candidate in search.candidates[: move.combinations] if not candidate.cost > dearest]
+    if isinstance(move, Probe) and move.again:
+        for candidate in some:
+            candidate.slopes = None
+    return some
+
+
+def _known_is_best(search: _Search, start: SearchStart) -> bool:
+    """Whether the known start turns out the best, and nothing that matters there is new."""
+    best, space = min(search.candidates, key=lambda candidate: candidate.cost), start.prediction.space
+    if start.new is None or not best.known or best.residual is None:
+        return False
+    return not start.new & set(space.active(space.decode(best.vector)))
+
+
+def _residuals(measure: Measure, rows: Sequence[int], builds: Sequence[Build]) -> list[Floats | None]:
+    """One for each build; None where there is no shape, or none that can be measured."""
+    pairs = [(row, build.shape) for row, build in zip(rows, builds, strict=True) if build.shape is not None]
+    measured = iter(measure(pairs))
+    return [None if build.shape is None else next(measured) for build in builds]

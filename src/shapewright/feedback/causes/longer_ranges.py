@@ -7,20 +7,21 @@ from dataclasses import replace
 
 from shapewright.building import Workers
 from shapewright.feedback.case import Replica
-from shapewright.feedback.causes.replicas import ENOUGH, affordable, measured, nearer
+from shapewright.feedback.causes.replicas import ENOUGH, affordable, as_near_as, measured, nearer
 from shapewright.judging.judge import Judge
 from shapewright.parameters import End, Integer, ParameterSpace, Prediction
-from shapewright.search.budgets import Budget, Round
-from shapewright.search.search import refine
+from shapewright.search.budgets import Budget
+from shapewright.search.moves import Probe, Scan, Step
+from shapewright.search.search import SearchStart, refine
 
 OUTSIDE = Budget(
-    (Round(1), Round(1), *(Round(1, 2, 5),) * 3, Round(1, afresh=True), *(Round(1, 2, 5),) * 5),
+    (Scan(1), Probe(1), *(Step(1, scatter=5),) * 3, Probe(1, again=True), *(Step(1, scatter=5),) * 5),
     patience=3,
+    spread=0.06,  # in a space that is a few times as wide
 )
 # Where nothing else is said, chosen on seed 0 of benchmarks/causes.py.
 _SHARE = 0.4  # of the evaluations for all references
 _TURNS = 2  # a longer Range may bring parameters to the ends of others
-_SPREAD = 0.06  # of the first random points, encoded in a space that is a few times as wide
 _CLOSE = 0.4  # of the threshold: beyond a Range the surfaces have to come together as well
 _NEXT, _OTHER = 0.1, 1e-6  # likelihoods of the next integer and of any other class, where the known one's is 1
 _LEVEL = 0.1  # part of what longer Ranges bring that is not worth one of them
@@ -53,15 +54,15 @@ def _searched(known: Sequence[Replica], ends: Sequence[set[End]], crew: Workers,
     space = crew.procedure.space
     wide = space.widened()
     vectors = refine(
-        _prediction(wide, known, ends),
+        SearchStart(
+            _prediction(wide, known, ends),
+            [replica.parameters for replica in known],
+            within=space.limits(wide, ends),
+        ),
+        as_near_as(ENOUGH * _CLOSE, known, judge),
         crew,
-        judge.measure([replica.row for replica in known], [replica.field for replica in known]),
         affordable(_with_integers(OUTSIDE, space, ends), _SHARE, len(known), crew),
         judge.settings.seed,
-        [replica.parameters for replica in known],
-        within=space.limits(wide, ends),
-        spread=_SPREAD,
-        enough=ENOUGH * _CLOSE * judge.goal,
     )
     return nearer(known, vectors, crew, judge)
 
@@ -89,8 +90,7 @@ def _outside(space: ParameterSpace, replica: Replica, name: str) -> bool:
 def _with_integers(budget: Budget, space: ParameterSpace, ends: Sequence[set[End]]) -> Budget:
     """The same, with a combination more for each whole number that may leave its Range."""
     more = max(sum(isinstance(space[name], Integer) for name, _ in free) for free in ends)
-    first = replace(budget.rounds[0], combinations=budget.rounds[0].combinations + more)
-    return replace(budget, rounds=(first, *budget.rounds[1:]))
+    return replace(budget, moves=(Scan(budget.combinations + more), *budget.moves[1:]))
 
 
 def _prediction(wide: ParameterSpace, known: Sequence[Replica], ends: Sequence[set[End]]) -> Prediction:

@@ -17,16 +17,18 @@ from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, Prediction, Scalar
 from shapewright.prediction.lookup import nearest
 from shapewright.rendering.raster import render
-from shapewright.search.budgets import Budget, Round
-from shapewright.search.objective import measure_of
-from shapewright.search.search import refine
+from shapewright.search.budgets import Budget
+from shapewright.search.moves import Probe, Scan, Step
+from shapewright.search.objective import Criterion, measure_of
+from shapewright.search.search import SearchStart, refine
 from shapewright.shapes import Mesh
 
 _RIVAL = 1.25  # of the best combination's cost
-NEAREST = Budget((Round(8), Round(2, rival=_RIVAL), *(Round(1, 2, 5),) * 12), patience=1)
+NEAREST = Budget((Scan(8), Probe(2, rival=_RIVAL), *(Step(1, scatter=5),) * 12), patience=1, spread=0.15)
 COVERING = Budget(
-    (Round(6), Round(2, rival=_RIVAL), Round(2, 2, 4, rival=_RIVAL), *(Round(1, 2, 5),) * 10),
+    (Scan(6), Probe(2, rival=_RIVAL), Step(2, scatter=4, rival=_RIVAL), *(Step(1, scatter=5),) * 10),
     patience=2,
+    spread=0.2,
 )
 """Budgets and shares were chosen on seed 0 of ``benchmarks/causes.py``."""
 RANDOM = 256
@@ -36,7 +38,6 @@ EVALUATIONS = 3_600
 ENOUGH = 0.9
 """Of the threshold. In the pose that both share, distances are upper bounds of what is judged."""
 _NEAREST_SHARE, _COVERING_SHARE = 0.45, 0.55  # of EVALUATIONS
-_NEAREST_SPREAD, _COVERING_SPREAD = 0.15, 0.2  # of the first random points, encoded
 
 
 def measured(asked: Sequence[tuple[int, Parameters]], crew: Workers, judge: Judge) -> list[Replica | None]:
@@ -66,14 +67,11 @@ def nearest_replicas(
     prediction: for the same references. budget: by default what their number affords.
     """
     vectors = refine(
-        prediction,
+        SearchStart(prediction, [replica.parameters for replica in known]),
+        as_near_as(ENOUGH, known, judge),
         crew,
-        judge.measure([replica.row for replica in known], [replica.field for replica in known]),
         budget or affordable(NEAREST, _NEAREST_SHARE, len(known), crew),
         judge.settings.seed,
-        [replica.parameters for replica in known],
-        spread=_NEAREST_SPREAD,
-        enough=ENOUGH * judge.goal,
     )
     return nearer(known, vectors, crew, judge)
 
@@ -87,13 +85,11 @@ def covering_replicas(
     A search starts from the most similar of some random shapes where that has more in common with the reference.
     """
     vectors = refine(
-        prediction,
+        SearchStart(prediction, _starts(known, overlays, crew, judge)),
+        Criterion(measure_of(overlays, judge.settings.workers)),
         crew,
-        measure_of(overlays, judge.settings.workers),
         affordable(COVERING, _COVERING_SHARE, len(known), crew),
         judge.settings.seed,
-        _starts(known, overlays, crew, judge),
-        spread=_COVERING_SPREAD,
     )
     rows = [replica.row for replica in known]
     fresh = measured(list(zip(rows, vectors, strict=True)), crew, judge)
@@ -125,6 +121,12 @@ def nearer(known: Sequence[Replica], vectors: Sequence[Parameters], crew: Worker
         if replica and replica.distance < best[i].distance:
             best[i] = replica
     return best
+
+
+def as_near_as(share: float, known: Sequence[Replica], judge: Judge) -> Criterion:
+    """The cost by the light fields of known replicas, down to a share of the threshold."""
+    measure = judge.measure([replica.row for replica in known], [replica.field for replica in known])
+    return Criterion(measure, enough=share * judge.goal)
 
 
 def affordable(budget: Budget, share: float, references: int, crew: Workers) -> Budget:

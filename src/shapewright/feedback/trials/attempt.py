@@ -18,21 +18,22 @@ from shapewright.feedback.trials.outcome import Outcome
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace, Prediction
 from shapewright.procedures import load_procedure
-from shapewright.search.budgets import Budget, Round
-from shapewright.search.search import refine
+from shapewright.search.budgets import Budget
+from shapewright.search.moves import Probe, Scan, Step
+from shapewright.search.objective import Criterion
+from shapewright.search.search import SearchStart, refine
 from shapewright.shapes import Mesh
 
-BRIEF = Budget((Round(2), Round(1), *(Round(1, 2, 4),) * 2))
+BRIEF = Budget((Scan(2), Probe(1), *(Step(1, scatter=4),) * 2))
 """Tells whether a change is worth more."""
-FEW_SCALARS = Budget((Round(1), Round(1), *(Round(1, 2, 2),) * 2))
+FEW_SCALARS = Budget((Scan(1), Probe(1), *(Step(1, scatter=2),) * 2))
 """For the new parameters alone."""
-LONG = Budget((Round(2), Round(1), *(Round(1, 2, 6),) * 9), patience=3)
+LONG = Budget((Scan(2), Probe(1), *(Step(1, scatter=6),) * 9), patience=3)
 """For all scalars, with the choices at the start."""
-OTHER_CHOICES = Budget((Round(6), Round(2), *(Round(1, 2, 6),) * 6), patience=3)
+OTHER_CHOICES = Budget((Scan(6), Probe(2), *(Step(1, scatter=6),) * 6), patience=3)
 """From several combinations of choices. All four were chosen on seed 0 of ``benchmarks/suggestions.py rules``."""
 ENOUGH = 0.88
 """Of the threshold, where a search ends: its costs are upper bounds of what is judged."""
-_SPREAD = 0.1  # of the first random points, encoded
 _UNLIKE = 0.1  # probability of other choices than those at the start
 _LENDERS = 3  # compatible references with different choices, the nearest of which others borrow from
 _SAME = 1e-6  # relative difference of bounds and areas up to which two shapes are one
@@ -100,16 +101,12 @@ def outcome_of(
     if budget and rows:
         encoded = np.array([space.encode(values) for values in vectors])
         fixed = np.array([only is not None and name not in only for name in space.names])
-        vectors = refine(
+        begin = SearchStart(
             Prediction.of(space, vectors, _UNLIKE, most=1.0 - _UNLIKE, sure=[sure] if sure else []),
-            crew,
-            judge.measure(rows),
-            budget,
-            judge.settings.seed + turn,
             within=(np.where(fixed, encoded, 0.0), np.where(fixed, encoded, 1.0)),
-            spread=_SPREAD,
-            enough=enough * judge.goal,
         )
+        criterion = Criterion(judge.measure(rows), enough=enough * judge.goal)
+        vectors = refine(begin, criterion, crew, budget, judge.settings.seed + turn)
     builds = crew.build(vectors)
     replicas = [
         Replica(row, build.parameters, build.shape, float(distance))

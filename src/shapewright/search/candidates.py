@@ -1,0 +1,141 @@
+"""One combination of choices in a search: the points that moves try for it, and what it learns from them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shapewright.parameters import ParameterSpace, Scalar
+from shapewright.search.budgets import SPREAD
+from shapewright.search.descent import bounded_step, learn_slope
+from shapewright.search.moves import BuildingMove, Probe, Step
+from shapewright.shapes import Floats
+
+REACH, _FARTHEST = 0.15, 0.3
+"""How far a first step and any step may move a scalar, encoded. By trial on tables, as are all constants here."""
+_SHORTER = 0.4
+"""Length of each step beside the one before in the same move, and of the first one after a move that was in vain."""
+_FLOORS = (20.0, 1000.0)
+"""Residuals below them weigh alike in one step and the next: the sum of absolute values, or nearly that of squares."""
+_WIDER, _NARROWER = 1.3, 0.75
+"""What random points spread by after a move that found something better, and after one that did not."""
+_LOCAL = 0.1
+"""How far a point may lie from the best one, encoded, for the linear model to learn from it."""
+
+
+@dataclass(eq=False)
+class Candidate:
+    """One combination of discrete values: the best scalars found for it, and a linear model around them.
+
+    vector: encoded (P,), where its cost is least so far.
+    surprise: what it costs that the combination is unlikely.
+    known: whether an earlier search found it.
+    spread: of random points, encoded.
+    cost: by the present part of the residual, with the surprise.
+    residual: (K,); None before it was measured.
+    slopes: (P, K), of the residual by the scalars; None before they were probed.
+    reach: how far a step may move a scalar, encoded.
+    """
+
+    vector: Floats
+    surprise: float = 0.0
+    known: bool = False
+    spread: float = SPREAD
+    cost: float = np.inf
+    residual: Floats | None = None
+    slopes: Floats | None = None
+    reach: float = REACH
+
+    def cost_of(self, residual: Floats, part: slice) -> float:
+        """What a residual (K,) of this combination costs by one part."""
+        return float(np.abs(residual[part]).sum()) + self.surprise
+
+    def go_by(self, part: slice) -> None:
+        """Compare by another part of the residual."""
+        self.reach = REACH
+        self.cost = np.inf if self.residual is None else self.cost_of(self.residual, part)
+
+    def learn(self, points: Sequence[tuple[float, Floats, Floats]]) -> None:
+        """Mend the model by what a move has measured, as cost, vector and residual, and move to the best of these."""
+        stepping = self.slopes is not None
+        if self.residual is not None:
+            self._model(self.residual, points)
+        best = min(points, key=lambda point: point[0], default=None)
+        if best and best[0] < self.cost:
+            if stepping:
+                moved = float(np.abs(best[1] - self.vector).max())
+                self.reach = max(min(2.0 * moved, _FARTHEST), 0.5 * self.reach)
+                self.spread *= _WIDER
+            self.cost, self.vector, self.residual = best
+        elif stepping:
+            self.reach *= _SHORTER
+            self.spread *= _NARROWER
+
+    def _model(self, residual: Floats, points: Sequence[tuple[float, Floats, Floats]]) -> None:
+        """Make the model from the first points, each along one axis; let it learn from others, the nearest last."""
+        if self.slopes is None:
+            self.slopes = np.zeros((len(self.vector), len(residual)))
+            if points:
+                steps = np.array([vector - self.vector for _, vector, _ in points])
+                changes = np.array([changed - residual for _, _, changed in points])
+                self.slopes += steps.T @ changes / np.maximum((steps * steps).sum(axis=0), 1e-12)[:, None]
+            return
+        apart = [(float(np.abs(vector - self.vector).max()), vector, changed) for _, vector, changed in points]
+        for length, vector, changed in sorted(apart, key=lambda point: -point[0]):
+            if length <= _LOCAL:
+                learn_slope(self.slopes, vector - self.vector, changed - residual)
+
+
+@dataclass(frozen=True, eq=False)
+class Bounds:
+    """The least and the greatest scalars of one reference, encoded, (P,) each."""
+
+    low: Floats
+    high: Floats
+
+
+def points(
+    candidate: Candidate,
+    move: BuildingMove,
+    space: ParameterSpace,
+    bounds: Bounds,
+    part: slice,
+    rng: np.random.Generator,
+) -> Iterator[Floats]:
+    """Encoded vectors inside the bounds that a move tries for a combination, see ``moves``."""
+    if candidate.residual is None:
+        yield candidate.vector
+        return
+    active = set(space.active(space.decode(candidate.vector)))
+    free = np.array([isinstance(parameter, Scalar) and parameter.name in active for parameter in space])
+    free &= bounds.high > bounds.low
+    if not free.any():
+        return
+    if candidate.slopes is None:
+        yield from _probed(candidate.vector, free, bounds, move if isinstance(move, Probe) else Probe(1))
+        return
+    step = move if isinstance(move, Step) else Step(1)
+    slopes, residual = np.ascontiguousarray(candidate.slopes[free, part]), candidate.residual[part]
+    for k in range(step.steps):
+        reach = candidate.reach * _SHORTER**k
+        low = np.clip(bounds.low - candidate.vector, -reach, 0.0)[free]
+        high = np.clip(bounds.high - candidate.vector, 0.0, reach)[free]
+        vector = candidate.vector.copy()
+        vector[free] += bounded_step(slopes, residual, low, high, _FLOORS[k % len(_FLOORS)])
+        yield vector
+    for _ in range(step.scatter):
+        away = rng.standard_normal(len(free)) * candidate.spread
+        yield np.where(free, np.clip(candidate.vector + away, bounds.low, bounds.high), candidate.vector)
+
+
+def _probed(centre: Floats, free: np.ndarray, bounds: Bounds, probe: Probe) -> Iterator[Floats]:
+    """One vector for each free scalar, to the side where there is room, or one to each side."""
+    for p in np.flatnonzero(free):
+        above, below = bounds.high[p] - centre[p], centre[p] - bounds.low[p]
+        one = probe.size if probe.size <= above else -probe.size
+        for side in (min(probe.size, above), -min(probe.size, below)) if probe.both else (one,):
+            vector = centre.copy()
+            vector[p] += side
+            yield vector
