@@ -20,7 +20,7 @@ STRETCH = 0.04
 JITTER = 0.006
 """Of each coordinate of a vertex, as a share of the largest extent."""
 SHARE = 0.5
-"""How likely each change is."""
+"""How likely each change is. All five by hand; docs/benchmarks.md, Augmentation, measures them together."""
 
 
 def augmented(data: Dataset, seed: int, threads: int | None = None) -> Dataset:

@@ -20,9 +20,12 @@ from shapewright.shapes import Mesh, Shape
 class Dataset:
     """Shapes, their pictures, and the parameters that built them.
 
-    parameters: N vectors in the procedure's units. targets: (N, P) float32, encoded. active: (N, P) bool, whether the
-    parameter matters there. images: (N, C, 2, S, S) uint8. shapes: N, normalised, all meshes or all
-    drawings. cameras: C, that took the images.
+    parameters: N vectors in the procedure's units.
+    targets: (N, P) float32, encoded.
+    active: (N, P) bool, whether the parameter matters there.
+    images: (N, C, 2, S, S) uint8.
+    shapes: N, normalised, all meshes or all drawings.
+    cameras: C, that took the images.
     """
 
     parameters: list[Parameters]

@@ -17,6 +17,7 @@ from shapewright.settings import Network
 LAYERS = ((4, 48), (2, 96), (2, 128))
 """Stride and channels of each convolution: the first takes patches side by side, the others overlap by a pixel."""
 _LOG_SPREAD = (-9.0, 2.0)
+"""Least and greatest logarithm of a spread while learning: from a ten-thousandth of a Range to seven. By hand."""
 
 
 class CompactNetwork(nn.Module):

@@ -25,7 +25,14 @@ from shapewright.storage import write_file
 class Predictor:
     """A trained network, the space it predicts in, and the cameras it looks through.
 
-    metrics: per parameter, on held-out samples. curve: loss by epoch. samples: how many shapes it learned from.
+    space: whose parameters it predicts.
+    network: in evaluation mode.
+    cameras: through which it looks at shapes.
+    size: pixels along a side of its pictures.
+    metrics: per parameter, on held-out samples.
+    curve: loss by epoch; empty where it was loaded.
+    samples: how many shapes it learned from.
+    threads: for rendering and torch; all cores by default.
     """
 
     space: ParameterSpace
@@ -38,7 +45,7 @@ class Predictor:
     threads: int | None = None
 
     def save(self, path: Path) -> None:
-        """Write what another iteration can go on from: space, network, cameras; no parameter's ``when``."""
+        """Write what another iteration can resume: space, network, cameras; no parameter's ``when``."""
         record = {
             "network": "compact" if isinstance(self.network, CompactNetwork) else "vgg19",
             "state": {name: tensor.cpu() for name, tensor in self.network.state_dict().items()},

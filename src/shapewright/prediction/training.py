@@ -29,13 +29,21 @@ from shapewright.threads import cores
 Rows = NDArray[np.int64]
 
 _SHARDS = 2
+"""Parts of a batch on a CPU, each on a thread of its own (docs/architecture.md, Threads)."""
 _CAMERA_ROWS = 8
+"""Rows of a shard from which the gradient by the cameras is estimated: six renders each. By trial on tables."""
 _CAMERA_SHARE = 0.5
+"""Of the epochs in which learned cameras move: the network settles in the rest. By trial on tables."""
 
 
 @dataclass(frozen=True)
 class Epoch:
-    """One pass over the training rows, and the mean loss on them and on the validation rows."""
+    """One pass over the training rows.
+
+    epoch: its number, from 1.
+    train: mean loss on the training rows.
+    validation: mean loss on the validation rows, NaN where there are none.
+    """
 
     epoch: int
     train: float
@@ -46,10 +54,18 @@ class Epoch:
 class Schedule:
     """What to train, and how.
 
-    weights: a file of VGG19's, see vgg.VGG19Network. optimiser: "adamw", whose learning rate rises over the first tenth
-    of the steps and falls along a cosine, or "adam" at a constant rate, the paper's. camera_rate: learning rate of the
-    cameras in radians and units of distance, 0 where they are fixed. With "adamw" they move in the first half of the
-    epochs, and the network settles in the rest; with "adam" they move throughout.
+    epochs: passes over the training rows.
+    batch: rows for each step.
+    learning_rate: of the network; with "adamw" the greatest.
+    weight_decay: of both optimisers.
+    optimiser: "adamw", whose learning rate rises over the first tenth of the steps and falls along a cosine, or "adam"
+        at a constant rate, the paper's.
+    camera_rate: learning rate of the cameras in radians and units of distance, 0 where they are fixed. With "adamw"
+        they move in the first half of the epochs, and the network settles in the rest; with "adam" they always move.
+    network: "compact" or "vgg19".
+    weights: a file of VGG19's, see vgg.VGG19Network.
+    device: on which torch computes.
+    seed: of the first weights and the order of the rows.
     """
 
     epochs: int = 30
@@ -66,7 +82,12 @@ class Schedule:
 
 @dataclass(frozen=True, eq=False)
 class Trained:
-    """A network in evaluation mode, the cameras it has learned to look through, and the loss by epoch."""
+    """What training gives.
+
+    network: in evaluation mode.
+    cameras: those that it has learned to look through.
+    curve: loss by epoch.
+    """
 
     network: nn.Module
     cameras: tuple[Camera, ...]

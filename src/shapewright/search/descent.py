@@ -14,7 +14,10 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 _REWEIGHTINGS, _SWEEPS = 6, 12
+"""Of the residuals for each step, and of the parameters for each quadratic: a step's cost is within 2 % of the least
+that a long search finds (tests/search/test_descent.py)."""
 _RIDGE = 1e-3
+"""Added to the curvature of each parameter: one without any effect stays where it is."""
 
 
 @njit(nogil=True, cache=True)
