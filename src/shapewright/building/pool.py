@@ -12,7 +12,6 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
-from typing import Literal
 
 import cloudpickle
 
@@ -39,14 +38,11 @@ class Workers:
         procedure: Procedure,
         count: int | None = None,
         limits: Limits | None = None,
-        names: Literal["label", "rule"] = "label",
     ) -> None:
-        """names: what faces that a split grammar made are labelled by."""
         self.procedure = procedure
         self.count = count or cores()
         self.limits = limits or Limits()
-        self._names = names
-        self._payload = _payload(procedure, names)
+        self._payload = _payload(procedure)
         self._idle: list[WorkerProcess] = []
 
     def __enter__(self) -> Workers:
@@ -65,7 +61,7 @@ class Workers:
 
         Raises ProcedureError when the procedure does not load there.
         """
-        self._payload, self.procedure = _payload(procedure, self._names), procedure
+        self._payload, self.procedure = _payload(procedure), procedure
         try:
             for worker in self._idle:
                 worker.load(self._payload)
@@ -174,10 +170,10 @@ def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:
         raise ProcedureError(message, commonest_place(probes), summary=True)
 
 
-def _payload(procedure: Procedure, names: str) -> bytes:
+def _payload(procedure: Procedure) -> bytes:
     target = f"{procedure.path}:{procedure.name}" if procedure.path else procedure
     try:
-        return bytes(cloudpickle.dumps((target, list(sys.path), names)))
+        return bytes(cloudpickle.dumps((target, list(sys.path))))
     except Exception as error:
         raise ProcedureError(
             f"it cannot be sent to the worker processes ({error}); "

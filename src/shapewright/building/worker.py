@@ -29,25 +29,24 @@ def serve(connection: Connection) -> None:
     try:
         with _one_core():
             payload, limits = connection.recv()
-            procedure, names = _received(payload)
+            procedure = _received(payload)
         limit_memory(limits.memory_mb)
         connection.send(_READY)
-        with _naming(names):
-            while True:
-                requests: list[Parameters] | bytes = connection.recv()
-                if isinstance(requests, bytes):
-                    procedure, _ = _received(requests)
-                    connection.send(_READY)
-                else:
-                    connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
+        while True:
+            requests: list[Parameters] | bytes = connection.recv()
+            if isinstance(requests, bytes):
+                procedure = _received(requests)
+                connection.send(_READY)
+            else:
+                connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
     except ProcedureError as error:  # of a file that does not load: the parent ends this process
         connection.send(Failure("raised", error.message, error.place))
 
 
-def _received(payload: bytes) -> tuple[Procedure, str]:
-    """The procedure, and what its faces are labelled by. Raises ProcedureError when its file does not load."""
-    target, sys.path[:], names = pickle.loads(payload)
-    return load_procedure(target) if isinstance(target, str) else target, names
+def _received(payload: bytes) -> Procedure:
+    """The procedure. Raises ProcedureError when its file does not load."""
+    target, sys.path[:] = pickle.loads(payload)
+    return load_procedure(target) if isinstance(target, str) else target
 
 
 @contextlib.contextmanager
@@ -68,15 +67,6 @@ def _one_core() -> Iterator[None]:
             (cube + cube.translate((0.5, 0.5, 0.5))).status()  # its threads are started by the first boolean
     finally:
         os.sched_setaffinity(0, cores)
-
-
-def _naming(names: str) -> contextlib.AbstractContextManager[None]:
-    """The grammar is loaded only where its rules are asked for."""
-    if names == "label":
-        return contextlib.nullcontext()
-    from shapewright.modelling.grammar import named_by
-
-    return named_by("rule")
 
 
 def _build_some(

@@ -6,7 +6,6 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.feedback.case import Case, Replica
-from shapewright.feedback.causes.rules import with_rules
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible import Surface
 from shapewright.judging.judge import Judge
@@ -28,8 +27,6 @@ def differences(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]
         [(surface, replica.mesh) for surface, (replica, _) in zip(surfaces, pairs, strict=True)],
         threads,
     )
-    vectors = [replica.parameters for replica, _ in pairs]
-    compared = with_rules(crew.procedure, vectors, compared, threads, crew.limits)
     return [
         Case.of(iteration.names[replica.row], reference, iteration.results[replica.row].compatible, replica, where)
         for (replica, reference), where in zip(pairs, compared, strict=True)

@@ -1,4 +1,4 @@
-"""A triangle mesh in space, with labels."""
+"""A triangle mesh in space, with labels, and with the rules that made it."""
 
 from __future__ import annotations
 
@@ -24,6 +24,8 @@ class Mesh:
         faces: (F, 3) int64, indices of vertices.
         face_labels: (F,) int64, index into label_names, -1 for a face without label; None when nothing is labelled.
         label_names: the labels.
+        face_rules: (F,) int64, index into rule_names, -1 for a face that no rule of a grammar made; None when none is.
+        rule_names: the rules.
 
     Raises ValueError for arrays of another form, vertices that are not finite, or faces that point at no vertex.
     """
@@ -32,6 +34,8 @@ class Mesh:
     faces: Ints
     face_labels: Ints | None = None
     label_names: tuple[str, ...] = ()
+    face_rules: Ints | None = None
+    rule_names: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "vertices", np.ascontiguousarray(self.vertices, dtype=np.float64))
@@ -44,10 +48,12 @@ class Mesh:
             raise ValueError("some vertices are not finite (NaN or infinity)")
         if len(self.faces) and (self.faces.min() < 0 or self.faces.max() >= len(self.vertices)):
             raise ValueError(f"faces point outside the {len(self.vertices)} vertices")
-        if self.face_labels is not None:
-            object.__setattr__(self, "face_labels", np.ascontiguousarray(self.face_labels, dtype=np.int64))
-            if self.face_labels.shape != (len(self.faces),):
-                raise ValueError(f"{len(self.face_labels)} face labels for {len(self.faces)} faces")
+        for field in ("face_labels", "face_rules"):
+            if (indices := getattr(self, field)) is not None:
+                indices = np.ascontiguousarray(indices, dtype=np.int64)
+                object.__setattr__(self, field, indices)
+                if indices.shape != (len(self.faces),):
+                    raise ValueError(f"{len(indices)} {field.replace('_', ' ')} for {len(self.faces)} faces")
 
     @cached_property
     def bounds(self) -> Floats:
@@ -72,13 +78,21 @@ class Mesh:
     @property
     def labels(self) -> tuple[str | None, ...]:
         """The label of each face, None where it has none."""
-        if self.face_labels is None:
-            return (None,) * len(self.faces)
-        return tuple(self.label_names[i] if i >= 0 else None for i in self.face_labels)
+        return _named(self.face_labels, self.label_names, len(self.faces))
+
+    @property
+    def rules(self) -> tuple[str | None, ...]:
+        """The rule that made each face, None where there is none."""
+        return _named(self.face_rules, self.rule_names, len(self.faces))
 
     def label(self, name: str) -> Mesh:
         """The same mesh with every face labelled ``name``."""
         return replace(self, face_labels=np.zeros(len(self.faces), dtype=np.int64), label_names=(name,))
+
+    def remade(self, vertices: Floats, faces: Ints, origins: Ints) -> Mesh:
+        """Other triangles with the labels and rules of those faces of this mesh that they come from, origins (F,)."""
+        labels, rules = (each if each is None else each[origins] for each in (self.face_labels, self.face_rules))
+        return Mesh(vertices, faces, labels, self.label_names, rules, self.rule_names)
 
     def transformed(self, matrix: ArrayLike) -> Mesh:
         """The mesh under a 3x3 or 4x4 matrix; faces keep their order of corners."""
@@ -107,18 +121,30 @@ class Mesh:
 
 
 def concatenate(meshes: list[Mesh]) -> Mesh:
-    """One mesh of all triangles of several; labels are kept. Raises ValueError for an empty list."""
+    """One mesh of all triangles of several; labels and rules are kept. Raises ValueError for an empty list."""
     if not meshes:
         raise ValueError("nothing to concatenate")
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    names: dict[str, int] = {}
-    labels: list[Ints] = []
-    for mesh in meshes:
-        index = np.array([names.setdefault(name, len(names)) for name in mesh.label_names] + [-1], dtype=np.int64)
-        labels.append(index[mesh.face_labels] if mesh.face_labels is not None else np.full(len(mesh.faces), -1))
+    faces = [len(mesh.faces) for mesh in meshes]
     return Mesh(
         np.concatenate([mesh.vertices for mesh in meshes]),
         np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]),
-        np.concatenate(labels) if names else None,
-        tuple(names),
+        *_joined([mesh.face_labels for mesh in meshes], [mesh.label_names for mesh in meshes], faces),
+        *_joined([mesh.face_rules for mesh in meshes], [mesh.rule_names for mesh in meshes], faces),
     )
+
+
+def _named(indices: Ints | None, names: tuple[str, ...], faces: int) -> tuple[str | None, ...]:
+    return (None,) * faces if indices is None else tuple(names[i] if i >= 0 else None for i in indices)
+
+
+def _joined(
+    indices: list[Ints | None], names: list[tuple[str, ...]], faces: list[int]
+) -> tuple[Ints | None, tuple[str, ...]]:
+    """One row of indices into one row of names, for several: the inverse of taking them apart."""
+    number = {name: i for i, name in enumerate(dict.fromkeys(name for some in names for name in some))}
+    renumbered = [
+        np.full(count, -1) if old is None else np.array([*(number[name] for name in some), -1], dtype=np.int64)[old]
+        for old, some, count in zip(indices, names, faces, strict=True)
+    ]
+    return np.concatenate(renumbered) if number else None, tuple(number)

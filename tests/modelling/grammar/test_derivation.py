@@ -9,6 +9,7 @@ from shapewright import Mesh, Range, procedure
 from shapewright.modelling.grammar import Grammar, GrammarError, share
 from shapewright.modelling.solids import box as block
 from shapewright.modelling.solids import cylinder
+from shapewright.shapes import concatenate
 
 SIZE = (1.2, 0.7, 0.8)
 
@@ -57,6 +58,10 @@ def test_every_face_knows_its_label_and_its_rule():
     by_label, by_rule = derivation.mesh(), derivation.mesh("rule")
     np.testing.assert_array_equal(by_label.vertices[by_label.faces].sum(), by_rule.vertices[by_rule.faces].sum())
     assert set(by_label.labels) == {"leg", "top"} and set(by_rule.labels) == {"legs", "parts"}
+    assert by_label.rules == by_rule.labels and set(zip(by_label.labels, by_label.rules, strict=True)) == {
+        ("leg", "legs"),
+        ("top", "parts"),
+    }
     top = by_label.triangles[[label == "top" for label in by_label.labels]]
     assert top[..., 1].min() == pytest.approx(0.65)
 
@@ -343,3 +348,34 @@ def test_parts_of_a_derivation_are_solids_to_go_on_with():
     assert (shape.without("legs") | shape.part("legs")).volume == pytest.approx((shape | shape.solid()).volume)
     with pytest.raises(ValueError, match="no box is labelled 'back'; the labels are: "):
         shape.part("back")
+
+
+def test_rules_survive_booleans_and_deformations_where_two_made_parts_of_one_label():
+    bed = Grammar()
+
+    @bed.rule("bed")
+    def ends(box):
+        head, under, foot = box.split("z", 0.1, ..., 0.1)
+        yield head.tag("head")
+        yield foot.tag("foot")
+        yield under.sub((None, 0.2, None), anchor=(0, 0, 0)).tag("frame")
+
+    @bed.rule("head")
+    def head_board(box):
+        yield box.tag("panel")
+
+    @bed.rule("foot")
+    def foot_board(box):
+        yield box.sub((None, 0.5, None), anchor=(0, 0, 0)).tag("panel")
+
+    post = block((0.05, 1.5, 0.05), at=(0, 0.75, -0.9)).label("post")
+    solid = bed.derive((1, 1, 2)).solid() | post
+    for mesh in (solid.mesh(), (solid.taper(0.8) - block(0.3, at=(0.5, 0, 0))).translate((1, 0, 0)).mesh()):
+        assert mesh.soundness().sound and mesh.triangles.shape[0] == len(mesh.rules)
+        middle = mesh.triangles.mean(axis=1)[:, 2]
+        made = {(label, rule) for label, rule in zip(mesh.labels, mesh.rules, strict=True) if label}
+        assert made == {("panel", "head_board"), ("panel", "foot_board"), ("frame", "ends"), ("post", None)}
+        assert middle[[rule == "head_board" for rule in mesh.rules]].max() < 0
+        assert middle[[rule == "foot_board" for rule in mesh.rules]].min() > 0
+        both = concatenate([mesh, mesh.label("all"), post.mesh()])
+        assert both.rules == mesh.rules * 2 + (None,) * len(post.mesh().faces)

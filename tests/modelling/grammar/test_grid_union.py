@@ -40,8 +40,9 @@ def test_one_box_is_twelve_triangles_and_flush_boxes_are_one():
     assert len(faces) == 12 and volume(Mesh(points, faces)) == pytest.approx(3)
 
 
-def test_faces_know_their_owner_and_the_first_takes_what_is_shared():
-    points, faces, owners = made([(0, 0, 0), (1, 0, 0)], [(2, 1, 1), (3, 1, 1)], [4, 7])
+def test_faces_know_their_box_and_the_first_takes_what_is_shared():
+    points, faces, boxes = made([(0, 0, 0), (1, 0, 0)], [(2, 1, 1), (3, 1, 1)], [4, 7])
+    owners = np.array([4, 7])[boxes]
     corners = points[faces]
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
     assert areas[owners == 4].sum() == pytest.approx(4 * 2 + 1)

@@ -5,6 +5,7 @@ import pytest
 
 from shapewright.modelling.solid.solid import labelled, solid_of
 from shapewright.modelling.solids import box, hull, sphere, union
+from shapewright.shapes import Mesh
 from shapewright.shapes.slivers import SLIVER, heights
 
 TETRAHEDRON = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], dtype=float)
@@ -27,7 +28,7 @@ def test_a_solid_of_a_closed_surface_whichever_way_it_is_wound():
 
 
 def test_faces_are_labelled_one_by_one():
-    solid = labelled(TETRAHEDRON, FACES, np.array([1, 0, 0, 1]), ["a", "b"])
+    solid = labelled(Mesh(TETRAHEDRON, FACES, np.array([1, 0, 0, 1]), ("a", "b")))
     mesh = solid.mesh()
     tilted = np.array([label == "b" for label in mesh.labels])
     normals = np.cross(*(mesh.triangles[:, i] - mesh.triangles[:, 0] for i in (1, 2)))

@@ -17,7 +17,6 @@ from shapewright.feedback.causes.replicas import (
     with_choices_kept,
     with_fields,
 )
-from shapewright.feedback.causes.rules import with_rules
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.judging.judge import Judge
@@ -39,7 +38,7 @@ def causes(
         return list(cases)
     space, settings = crew.procedure.space, judge.settings
     misfits = _searched(misfits, predictor, crew, judge, stages)
-    misfits = _compared(misfits, crew, judge)
+    misfits = _compared(misfits, judge)
     misfits = [replace(case, causes=diagnosed(space, settings.threshold, case)) for case in misfits]
     lacking = [case for case in misfits if case.causes[0].kind == "missing part"]
     leans = leaning(crew, [(case.covering.parameters, case.overlay) for case in lacking], settings.workers)
@@ -75,15 +74,13 @@ def _searched(
     return misfits
 
 
-def _compared(misfits: Sequence[Case], crew: Workers, judge: Judge) -> list[Case]:
+def _compared(misfits: Sequence[Case], judge: Judge) -> list[Case]:
     """The misfits with what differs from the covering replica, and how far they are from all other references."""
     settings = judge.settings
     described = [target.descriptor for target in judge.targets if isinstance(target, MeshTarget)]
     alone = isolation(described, settings.align, settings.workers, settings.seed)
     unlike = outliers(alone)
     compared = in_threads(lambda case: residuals(case.surface, case.covering.mesh), misfits, settings.workers)
-    vectors = [case.covering.parameters for case in misfits]
-    compared = with_rules(crew.procedure, vectors, compared, settings.workers, crew.limits)
     return [
         replace(case, covering_residuals=where, isolation=float(alone[case.row]) if unlike[case.row] else None)
         for case, where in zip(misfits, compared, strict=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -144,8 +144,8 @@ def _regions(side: RegionSide, surface: Surface, distance: Floats, replica: Surf
             box.axes,
             len(rows) / visible,
             float(distance[rows].mean()),
-            _commonest(mesh, faces),
-            None,
+            _commonest(mesh.face_labels, mesh.label_names, faces),
+            _commonest(mesh.face_rules, mesh.rule_names, faces),
             rows,
         )
 
@@ -166,10 +166,10 @@ def _connected(surface: Surface, rows: NDArray[np.intp]) -> tuple[int, NDArray[n
     return connected_points(surface.points[rows], _LINK * surface.spacing)
 
 
-def _commonest(mesh: Mesh, faces: Ints) -> str | None:
-    """The label that most of these faces have, None where most have none."""
-    if mesh.face_labels is None:
+def _commonest(indices: Ints | None, names: Sequence[str], faces: Ints) -> str | None:
+    """The name that most of these faces have, None where most have none."""
+    if indices is None:
         return None
-    labels, counts = np.unique(mesh.face_labels[faces], return_counts=True)
-    label = int(labels[counts.argmax()])
-    return mesh.label_names[label] if label >= 0 else None
+    different, counts = np.unique(indices[faces], return_counts=True)
+    commonest = int(different[counts.argmax()])
+    return names[commonest] if commonest >= 0 else None

@@ -32,57 +32,52 @@ class Leaf(NamedTuple):
     rule: str
 
 
-def mesh(leaves: Sequence[Leaf], tolerance: float, by_rule: bool = False) -> Mesh:
-    """The union of all as a mesh, deformed group by group, its faces labelled by their labels or by their rules.
+def mesh(leaves: Sequence[Leaf], tolerance: float) -> Mesh:
+    """The union of all as a mesh, deformed group by group, whose faces know their labels and rules.
 
     tolerance: how far facets may be from the smooth shape, a length.
     """
-    if all(_is_plain(leaf.box) and not leaf.box.groups and not leaf.box.is_void for leaf in leaves):
-        united = _united(leaves, by_rule)
-        if united:
-            points, faces, owners, names = united
-            return Mesh(points, faces, owners, names)
-    return joined(leaves, tolerance, by_rule).mesh()
+    plain = all(_is_plain(leaf.box) and not leaf.box.groups and not leaf.box.is_void for leaf in leaves)
+    return (_united(leaves) if plain else None) or joined(leaves, tolerance).mesh()
 
 
-def joined(leaves: Sequence[Leaf], tolerance: float, by_rule: bool = False) -> Solid:
+def joined(leaves: Sequence[Leaf], tolerance: float) -> Solid:
     """The same as a solid."""
-    solid, _ = _join(leaves, 0, tolerance, by_rule)
+    solid, _ = _join(leaves, 0, tolerance)
     return solid or Solid(Manifold())
 
 
-def apart(leaves: Sequence[Leaf], tolerance: float, by_rule: bool = False) -> Mesh:
+def apart(leaves: Sequence[Leaf], tolerance: float) -> Mesh:
     """Every box's own closed surface, without any union. Raises ValueError where there are voids to be cut."""
     if any(leaf.box.is_void for leaf in leaves):
         raise ValueError("voids can only be cut out when boxes are joined")
     plain = [leaf for leaf in leaves if _is_plain(leaf.box) and not leaf.box.groups]
-    meshes = [_boxes(plain, by_rule)] if plain else []
+    meshes = [_boxes(plain)] if plain else []
     for leaf in leaves:
         if leaf.box.groups or not _is_plain(leaf.box):
-            surface, names = _surface(leaf, tolerance, by_rule)
+            surface, names = _surface(leaf, tolerance)
             for deformations in (leaf.box.deformations, *(group.deformations for group in reversed(leaf.box.groups))):
                 surface = deformed(surface, deformations, tolerance) if deformations else surface
-            faces, owners = surface.triangles()
-            meshes.append(Mesh(surface.points, faces, owners, names))
+            meshes.append(_made_by(leaf, surface, names))
     return concatenate(meshes)
 
 
-def _join(leaves: Sequence[Leaf], depth: int, tolerance: float, by_rule: bool) -> tuple[Solid | None, Solid | None]:
+def _join(leaves: Sequence[Leaf], depth: int, tolerance: float) -> tuple[Solid | None, Solid | None]:
     """The union of leaves that share their first ``depth`` groups, and the union of the voids among them."""
     here = [leaf for leaf in leaves if len(leaf.box.groups) == depth]
     inner: dict[object, list[Leaf]] = {}
     for leaf in leaves:
         if len(leaf.box.groups) > depth:
             inner.setdefault(leaf.box.groups[depth], []).append(leaf)
-    solids = _solids([leaf for leaf in here if not leaf.box.is_void], tolerance, by_rule)
-    voids = _solids([leaf for leaf in here if leaf.box.is_void], tolerance, by_rule)
+    solids = _solids([leaf for leaf in here if not leaf.box.is_void], tolerance)
+    voids = _solids([leaf for leaf in here if leaf.box.is_void], tolerance)
     for members in inner.values():
         group = members[0].box.groups[depth]
-        bent = _bent(members, depth, tolerance, by_rule)
+        bent = _bent(members, depth, tolerance)
         if bent:
             solids.append(bent)
             continue
-        solid, void = _join(members, depth + 1, tolerance, by_rule)
+        solid, void = _join(members, depth + 1, tolerance)
         if group.deformations:
             solid = solid.deformed(group.deformations, tolerance) if solid else None
             void = void.deformed(group.deformations, tolerance) if void else None
@@ -93,66 +88,83 @@ def _join(leaves: Sequence[Leaf], depth: int, tolerance: float, by_rule: bool) -
     return union(*solids) if solids else None, union(*voids) if voids else None
 
 
-def _bent(leaves: Sequence[Leaf], depth: int, tolerance: float, by_rule: bool) -> Solid | None:
+def _bent(leaves: Sequence[Leaf], depth: int, tolerance: float) -> Solid | None:
     """A group of plain boxes united and deformed without booleans, if it is one."""
     if not all(len(leaf.box.groups) == depth + 1 and _is_plain(leaf.box) and not leaf.box.is_void for leaf in leaves):
         return None
-    united = _united(leaves, by_rule)
+    united = _united(leaves)
     if not united:
         return None
-    points, faces, owners, names = united
-    return _solid(
-        Surface.of_triangles(points, faces, owners), leaves[0].box.groups[depth].deformations, tolerance, names
-    )
+    surface = Surface.of_triangles(united.vertices, united.faces, np.arange(len(united.faces)))
+    bent = _deformed(surface, leaves[0].box.groups[depth].deformations, tolerance)
+    return _solid(united.remade(bent.points, *bent.triangles()), len(surface.points))
 
 
-def _solid(surface: Surface, deformations: Sequence[Deformation], tolerance: float, names: Sequence[str]) -> Solid:
-    """The solid in a surface after deformations, without the cuts that these turn out not to need."""
-    bent = deformed(surface, deformations, tolerance) if deformations else surface
-    solid = labelled(bent.points, *bent.triangles(), names)
-    return solid.simplified() if len(bent.points) > len(surface.points) else solid
+def _deformed(surface: Surface, deformations: Sequence[Deformation], tolerance: float) -> Surface:
+    return deformed(surface, deformations, tolerance) if deformations else surface
 
 
-def _solids(leaves: Sequence[Leaf], tolerance: float, by_rule: bool) -> list[Solid]:
+def _solid(mesh: Mesh, points: int) -> Solid:
+    """The solid in a surface that had so many points before deformations, without the cuts that it does not need."""
+    solid = labelled(mesh)
+    return solid.simplified() if len(mesh.vertices) > points else solid
+
+
+def _solids(leaves: Sequence[Leaf], tolerance: float) -> list[Solid]:
     """The plain ones among leaves as one solid, if they can be stitched, and each of the others as its own."""
     plain = [leaf for leaf in leaves if _is_plain(leaf.box)]
-    united = _united(plain, by_rule) if len(plain) > 1 else None
+    united = _united(plain) if len(plain) > 1 else None
     if not united:
-        return [_leaf_solid(leaf, tolerance, by_rule) for leaf in leaves]
-    others = [_leaf_solid(leaf, tolerance, by_rule) for leaf in leaves if not _is_plain(leaf.box)]
-    return [labelled(*united), *others]
+        return [_leaf_solid(leaf, tolerance) for leaf in leaves]
+    others = [_leaf_solid(leaf, tolerance) for leaf in leaves if not _is_plain(leaf.box)]
+    return [labelled(united), *others]
 
 
-def _united(leaves: Sequence[Leaf], by_rule: bool) -> tuple[Floats, Ints, Ints, tuple[str, ...]] | None:
-    """Points, faces, owners and their labels of the union of plain boxes, if it can be stitched without booleans."""
-    names = tuple(dict.fromkeys(_name(leaf, by_rule) for leaf in leaves))
-    owners = np.array([names.index(_name(leaf, by_rule)) for leaf in leaves])
+def _united(leaves: Sequence[Leaf]) -> Mesh | None:
+    """The union of plain boxes, if it can be stitched without booleans."""
+    owners, labels = _numbered([leaf.label for leaf in leaves])
+    makers, rules = _numbered([leaf.rule for leaf in leaves])
     low, high = (np.array([getattr(leaf.box, end) for leaf in leaves]) for end in ("low", "high"))
     united = unite(low, high, owners)
-    return (*united, names) if united else None
+    if not united:
+        return None
+    points, faces, boxes = united
+    return Mesh(points, faces, owners[boxes], labels, makers[boxes], rules)
 
 
-def _leaf_solid(leaf: Leaf, tolerance: float, by_rule: bool) -> Solid:
+def _numbered(names: Sequence[str]) -> tuple[Ints, tuple[str, ...]]:
+    """Indices (N,) into different names, and these."""
+    different = tuple(dict.fromkeys(names))
+    return np.array([different.index(name) for name in names]), different
+
+
+def _made_by(leaf: Leaf, surface: Surface, names: tuple[str, ...]) -> Mesh:
+    """The triangles of a leaf's surface."""
+    faces, owners = surface.triangles()
+    return Mesh(surface.points, faces, owners, names, np.zeros(len(faces), dtype=np.int64), (leaf.rule,))
+
+
+def _leaf_solid(leaf: Leaf, tolerance: float) -> Solid:
     box = leaf.box
     if isinstance(box.form, Fill):
-        solid = _filled(leaf, box.form, by_rule)
+        solid = _filled(leaf, box.form)
         return solid.deformed(box.deformations, tolerance) if box.deformations else solid
     if _is_plain(box):
-        return labelled(_corner_points([box])[0], _TRIANGLES, np.zeros(12, dtype=np.int64), [_name(leaf, by_rule)])
-    surface, names = _surface(leaf, tolerance, by_rule)
-    return _solid(surface, box.deformations, tolerance, names)
+        return labelled(_boxes([leaf]))
+    surface, names = _surface(leaf, tolerance)
+    return _solid(_made_by(leaf, _deformed(surface, box.deformations, tolerance), names), len(surface.points))
 
 
-def _surface(leaf: Leaf, tolerance: float, by_rule: bool) -> tuple[Surface, tuple[str, ...]]:
+def _surface(leaf: Leaf, tolerance: float) -> tuple[Surface, tuple[str, ...]]:
     """The surface of a leaf before its own deformations, and the labels that its owners stand for."""
-    box, name = leaf.box, _name(leaf, by_rule)
+    box, name = leaf.box, leaf.label
     if isinstance(box.form, Fill):
-        mesh = _filled(leaf, box.form, by_rule).mesh()
+        mesh = _filled(leaf, box.form).mesh()
         assert mesh.face_labels is not None
         surface, names = Surface.of_triangles(mesh.vertices, mesh.faces, mesh.face_labels), mesh.label_names
     else:
         surface = _rounded(box, box.form, tolerance) if box.form else _plain(box)
-        sides = {} if by_rule else dict(box.names)
+        sides = dict(box.names)
         names = tuple(dict.fromkeys([name, *(label for side, label in sides.items() if side)]))
         owners = np.array([names.index(sides.get(side, name)) for side in SIDES])
         surface = replace(surface, owners=owners[surface.owners])
@@ -204,7 +216,7 @@ def _side_towards(box: Box, axis: int, sign: int) -> int:
     return 2 * axis + (sign * box.facing[axis] > 0)
 
 
-def _filled(leaf: Leaf, form: Fill, by_rule: bool) -> Solid:
+def _filled(leaf: Leaf, form: Fill) -> Solid:
     box = leaf.box
     low, high = np.array(box.low), np.array(box.high)
     solid = form.make(tuple(high - low), **dict(form.arguments))
@@ -212,21 +224,25 @@ def _filled(leaf: Leaf, form: Fill, by_rule: bool) -> Solid:
         if facing < 0:
             solid = solid.mirror(axis)  # type: ignore[arg-type]
     solid = solid.translate((low + high) / 2.0)
-    if by_rule or not solid.labels or dict(box.names).get(None):
-        return solid.label(_name(leaf, by_rule))
+    if not solid.labels or dict(box.names).get(None):
+        solid = solid.label(leaf.label)
+        return replace(solid, rules=dict.fromkeys(solid.labels, leaf.rule))
     mesh = solid.manifold.to_mesh64()
-    names = [solid.labels.get(original, leaf.label) for original in mesh.run_original_id]
+    names = tuple(solid.labels.get(original, leaf.label) for original in mesh.run_original_id)
     owners = np.repeat(np.arange(len(names)), np.diff(mesh.run_index) // 3)
-    return labelled(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64), owners, names)
+    made = np.zeros(len(owners), dtype=np.int64)
+    points, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
+    return labelled(Mesh(points, faces, owners, names, made, (leaf.rule,)))
 
 
-def _boxes(leaves: Sequence[Leaf], by_rule: bool) -> Mesh:
+def _boxes(leaves: Sequence[Leaf]) -> Mesh:
     """The surfaces of plain boxes."""
-    names = tuple(dict.fromkeys(_name(leaf, by_rule) for leaf in leaves))
+    owners, labels = _numbered([leaf.label for leaf in leaves])
+    makers, rules = _numbered([leaf.rule for leaf in leaves])
     points = _corner_points([leaf.box for leaf in leaves])
     faces = _TRIANGLES + 8 * np.arange(len(leaves))[:, None, None]
-    owners = np.repeat([names.index(_name(leaf, by_rule)) for leaf in leaves], 12)
-    return Mesh(points.reshape(-1, 3), faces.reshape(-1, 3), owners, names)
+    numbers = np.repeat(np.arange(len(leaves)), 12)
+    return Mesh(points.reshape(-1, 3), faces.reshape(-1, 3), owners[numbers], labels, makers[numbers], rules)
 
 
 def _corner_points(boxes: Sequence[Box]) -> Floats:
@@ -237,7 +253,3 @@ def _corner_points(boxes: Sequence[Box]) -> Floats:
 
 def _is_plain(box: Box) -> bool:
     return not (box.form or box.deformations or any(side for side, _ in box.names))
-
-
-def _name(leaf: Leaf, by_rule: bool) -> str:
-    return leaf.rule if by_rule else leaf.label

@@ -15,9 +15,10 @@ _MOST_CELLS = 500_000
 
 
 def unite(low: Floats, high: Floats, owners: Ints) -> tuple[Floats, Ints, Ints] | None:
-    """The surface of the union: points (V, 3), faces (F, 3), wound outwards, and their owners (F,).
+    """The surface of the union: points (V, 3), faces (F, 3), wound outwards, and the box that each comes from (F,).
 
-    low, high: (B, 3), corners of boxes. owners: (B,), numbers from 0 up; where boxes overlap the first one's is taken.
+    low, high: (B, 3), corners of boxes. owners: (B,), numbers from 0 up; where boxes overlap the first one counts. Of
+    boxes with the same owner what is flat is one face, which comes from one of them.
     Coordinates nearer to each other than a millionth of the extent are made one. None when the union is no manifold,
     because boxes meet in an edge or a corner only, and when there are too many coordinates for a grid.
     """
@@ -26,13 +27,13 @@ def unite(low: Floats, high: Floats, owners: Ints) -> tuple[Floats, Ints, Ints] 
     (xs, x0, x1), (ys, y0, y1), (zs, z0, z1) = grid
     if min(len(xs), len(ys), len(zs)) < 2 or len(xs) * len(ys) * len(zs) > _MOST_CELLS:
         return None
-    points, faces, face_owners = _stitched(x0, x1, y0, y1, z0, z1, owners, xs, ys, zs)
+    points, faces, origins = _stitched(x0, x1, y0, y1, z0, z1, owners, xs, ys, zs)
     closed, manifold, _, _ = topology(faces, len(points))
     if not (closed and manifold):
         return None
     if has_slivers(points[faces], least):  # on a ledge as narrow as a thousandth of its length
-        return without_slivers(points, faces, face_owners, least)
-    return points, faces, face_owners
+        return without_slivers(points, faces, origins, least)
+    return points, faces, origins
 
 
 @njit(nogil=True, cache=True)
@@ -51,7 +52,7 @@ def _grid_lines(low: Any, high: Any, least: float) -> Any:
 
 @njit(nogil=True, cache=True)
 def _stitched(x0: Any, x1: Any, y0: Any, y1: Any, z0: Any, z1: Any, owners: Any, xs: Any, ys: Any, zs: Any) -> Any:
-    """Points (V, 3), in the order of the grid of these coordinates, triangles (F, 3) and their owners.
+    """Points (V, 3), in the order of the grid of these coordinates, triangles (F, 3) and the box of each.
 
     x0 to z1: (B,), where in xs, ys and zs the boxes begin and end.
     """
@@ -62,8 +63,8 @@ def _stitched(x0: Any, x1: Any, y0: Any, y1: Any, z0: Any, z1: Any, owners: Any,
         for x in range(x0[b], x1[b]):
             for y in range(y0[b], y1[b]):
                 start = x * stride[0] + y * stride[1]
-                cells[start + z0[b] : start + z1[b]] = owners[b]
-    rectangles = _rectangles(cells, shape, stride)
+                cells[start + z0[b] : start + z1[b]] = b
+    rectangles = _rectangles(cells, owners, shape, stride)
     corner = np.zeros(len(cells), dtype=np.bool_)
     most = 0
     for r in range(len(rectangles)):
@@ -73,14 +74,14 @@ def _stitched(x0: Any, x1: Any, y0: Any, y1: Any, z0: Any, z1: Any, owners: Any,
             for j in (v0, v1):
                 corner[at * stride[d] + i * u + j * v] = True
         most += 2 * (u1 - u0 + v1 - v0)
-    faces, face_owners = np.empty((most, 3), dtype=np.int64), np.empty(most, dtype=np.int64)
+    faces, origins = np.empty((most, 3), dtype=np.int64), np.empty(most, dtype=np.int64)
     total = 0
     for r in range(len(rectangles)):
         before = total
         total = _fill(rectangles[r], corner, stride, faces, total)
-        face_owners[before:total] = rectangles[r, 3]
+        origins[before:total] = rectangles[r, 3]
     points = _numbered(faces[:total], stride, xs, ys, zs)
-    return points, faces[:total], face_owners[:total]
+    return points, faces[:total], origins[:total]
 
 
 @njit(nogil=True, cache=True)
@@ -106,8 +107,8 @@ def _numbered(faces: Any, stride: Any, xs: Any, ys: Any, zs: Any) -> Any:
 
 
 @njit(nogil=True, cache=True)
-def _rectangles(cells: Any, shape: Any, stride: Any) -> Any:
-    """(R, 8): axis, place along it, 1 or -1 for the way that it faces, owner, and the extent along the other axes."""
+def _rectangles(cells: Any, owners: Any, shape: Any, stride: Any) -> Any:
+    """(R, 8): axis, place along it, 1 or -1 for the way that it faces, a box, and the extent along the other axes."""
     found = np.empty((256, 8), dtype=np.int64)
     total = 0
     for d in range(3):
@@ -134,26 +135,26 @@ def _rectangles(cells: Any, shape: Any, stride: Any) -> Any:
                                 larger = np.empty((2 * total, 8), dtype=np.int64)
                                 larger[:total] = found
                                 found = larger
-                            owner = open_[i, j]
-                            end_i, end_j = _grow(open_, i, j, shape[u] - 1, shape[v] - 1)
+                            box = open_[i, j]
+                            end_i, end_j = _grow(open_, owners, i, j, shape[u] - 1, shape[v] - 1)
                             row = found[total]
-                            row[0], row[1], row[2], row[3] = d, at, sign, owner
+                            row[0], row[1], row[2], row[3] = d, at, sign, box
                             row[4], row[5], row[6], row[7] = i, end_i, j, end_j
                             total += 1
     return found[:total]
 
 
 @njit(nogil=True, cache=True)
-def _grow(open_: Any, i: int, j: int, most_i: int, most_j: int) -> Any:
+def _grow(open_: Any, owners: Any, i: int, j: int, most_i: int, most_j: int) -> Any:
     """The ends of a rectangle of cells of one owner from (i, j) on, which are closed."""
-    owner = open_[i, j]
+    owner = owners[open_[i, j]]
     end_j = j + 1
-    while end_j < most_j and open_[i, end_j] == owner:
+    while end_j < most_j and open_[i, end_j] >= 0 and owners[open_[i, end_j]] == owner:
         end_j += 1
     end_i = i + 1
     while end_i < most_i:
         for k in range(j, end_j):
-            if open_[end_i, k] != owner:
+            if open_[end_i, k] < 0 or owners[open_[end_i, k]] != owner:
                 open_[i:end_i, j:end_j] = -1
                 return end_i, end_j
         end_i += 1

@@ -14,7 +14,8 @@ from itertools import accumulate, combinations, pairwise
 import numpy as np
 from manifold3d import Manifold, Mesh64
 
-from shapewright.shapes import Floats, Ints
+from shapewright.modelling.solid.originals import with_points
+from shapewright.shapes import Floats
 
 CLOSE, _OVERLAP = 1e-9, 1e-8
 """How near two coordinates are that are made one, and how much slanted planes are made to overlap: parts of the largest
@@ -25,11 +26,11 @@ _KEYS = np.array(
 ).astype(np.int64)
 
 
-def aligned(manifolds: Sequence[Manifold], facing: int = -1) -> list[Manifold]:
+def aligned(manifolds: Sequence[Manifold], facing: int = -1, ids: bool = False) -> list[Manifold]:
     """The same solids, moved by less than about 1e-8 of their extent; those that are exact already as they are.
 
     facing: -1 where planes that face each other are to overlap, as in a union; 1 where those that face the same way
-    are, as when the others are cut out of the first.
+    are, as when the others are cut out of the first. ids: whether faces were given ids, which are to be kept.
     """
     result = list(manifolds)
     boxes = [manifold.bounding_box() for manifold in manifolds]
@@ -45,7 +46,7 @@ def aligned(manifolds: Sequence[Manifold], facing: int = -1) -> list[Manifold]:
         return result
     for i, mesh, (start, end) in zip(touching, meshes, pairwise(ends), strict=True):
         if (moved[start:end] != points[start:end]).any():
-            result[i] = with_points(mesh, moved[start:end])
+            result[i] = with_points(mesh, moved[start:end], ids)
     return result
 
 
@@ -100,29 +101,3 @@ def _overlapping(points: Floats, meshes: Sequence[Mesh64], ends: Sequence[int], 
         side = order[meets][first.ravel() == i]
         moved[np.unique(faces[slanted[side]])] += _OVERLAP * extent * normals[:, side[0]]
     return moved
-
-
-def manifold_of(points: Floats, faces: Ints, owners: Ints, originals: Sequence[int]) -> Manifold:
-    """A manifold whose face i (of F, 3) comes from the original ``originals[owners[i]]`` of manifold3d."""
-    order = np.argsort(owners, kind="stable")
-    ends = np.searchsorted(owners[order], np.arange(len(originals) + 1))
-    return Manifold(
-        Mesh64(
-            np.array(points),  # a copy: manifold3d's own arrays are read-only, and it takes none such
-            np.ascontiguousarray(faces[order], dtype=np.uint64),
-            run_index=(3 * ends).astype(np.uint64),
-            run_original_id=np.asarray(originals, dtype=np.uint32),
-        )
-    )
-
-
-def with_points(mesh: Mesh64, points: Floats) -> Manifold:
-    """The manifold of a mesh with other coordinates."""
-    return Manifold(
-        Mesh64(
-            np.ascontiguousarray(points),
-            np.array(mesh.tri_verts),
-            run_index=np.array(mesh.run_index, dtype=np.uint64),
-            run_original_id=np.array(mesh.run_original_id, dtype=np.uint32),
-        )
-    )

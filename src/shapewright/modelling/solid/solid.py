@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from manifold3d import Error, Manifold, Mesh64, OpType
@@ -12,12 +12,15 @@ from manifold3d import Error, Manifold, Mesh64, OpType
 from shapewright.modelling import arguments, deformation, verbs
 from shapewright.modelling.arguments import ORIGIN, Axis, Direction, Vector
 from shapewright.modelling.curves import TOLERANCE
-from shapewright.modelling.solid.alignment import aligned, manifold_of
+from shapewright.modelling.solid.alignment import aligned
+from shapewright.modelling.solid.originals import given_ids, has_ids, manifold_of, owners_of, rule_ids, triangles
 from shapewright.shapes import Floats, Ints, Mesh
 from shapewright.shapes.slivers import SLIVER, has_slivers, heights, without_slivers
 
 if TYPE_CHECKING:
     from shapewright.modelling.deformation import Deformation
+
+Split: TypeAlias = "Callable[[], tuple[Solid, ...]]"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,11 +30,13 @@ class Solid:
     manifold: the geometry; wrap a manifold3d.Manifold of your own as ``Solid(manifold)``.
     labels: the label of each original of manifold3d (the ids in ``run_original_id``) that has one.
     split: gives the solids that it was united from, None where it is of one piece.
+    rules: the rule of a split grammar that made an original, or where several did those with a face id.
     """
 
     manifold: Manifold
     labels: Mapping[int, str] = field(default_factory=dict)
-    split: Callable[[], tuple[Solid, ...]] | None = field(default=None, repr=False)
+    split: Split | None = field(default=None, repr=False)
+    rules: Mapping[int, str] = field(default_factory=dict, repr=False)
 
     @property
     def pieces(self) -> tuple[Solid, ...]:
@@ -74,19 +79,17 @@ class Solid:
         """Intersection."""
         if not isinstance(other, Solid):
             return NotImplemented
-        a, b = aligned((self.manifold, other.manifold))
-        return Solid(a ^ b, {**self.labels, **other.labels}, self._each(lambda piece: piece & other))
+        return self._joined(other, Manifold.__xor__, -1, self._each(lambda piece: piece & other))
 
     def __sub__(self, other: Solid) -> Solid:
         """Difference; the faces of a cut bear the label of what cut them."""
         if not isinstance(other, Solid):
             return NotImplemented
-        a, b = aligned((self.manifold, other.manifold), facing=1)
-        return Solid(a - b, {**self.labels, **other.labels}, self._each(lambda piece: piece - other))
+        return self._joined(other, Manifold.__sub__, 1, self._each(lambda piece: piece - other))
 
     def translate(self, by: Vector) -> Solid:
         step = arguments.vector("translate", "by", by)
-        return Solid(self.manifold.translate(step), self.labels, self._each(lambda piece: piece.translate(step)))
+        return self._moved(self.manifold.translate(step), self._each(lambda piece: piece.translate(step)))
 
     def rotate(self, degrees: float, axis: Axis = "y", about: Vector = ORIGIN) -> Solid:
         turn, (x, y, z) = arguments.number("rotate", "degrees", degrees), _unit("rotate", axis)
@@ -134,19 +137,20 @@ class Solid:
         mesh = self.manifold.to_mesh64()
         if not len(mesh.tri_verts):
             return self
-        owners = np.repeat(np.arange(len(mesh.run_original_id)), np.diff(mesh.run_index) // 3)
-        surface = facets.Surface.of_triangles(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64), owners)
+        corners, owners = mesh.tri_verts.astype(np.int64), owners_of(mesh)
+        surface = facets.Surface.of_triangles(mesh.vert_properties[:, :3], corners, np.arange(len(corners)))
         surface = facets.deformed(surface, deformations, tolerance)
-        made = manifold_of(surface.points, *surface.triangles(), mesh.run_original_id)
-        split = self._each(lambda piece: piece.deformed(deformations, tolerance))
-        return Solid(made, self.labels, split).simplified()
+        faces, origins = surface.triangles()
+        face_ids = given_ids(mesh)[origins] if has_ids(self.rules) else None
+        made = manifold_of(surface.points, faces, owners[origins], mesh.run_original_id, face_ids)
+        return self._moved(made, self._each(lambda piece: piece.deformed(deformations, tolerance))).simplified()
 
     def simplified(self) -> Solid:
         """The solid without points that its shape does not need, within a millionth of its largest extent."""
         if self.checked().manifold.is_empty():
             return self
         least = SLIVER * float(np.ptp(self.bounds, axis=0).max())
-        return Solid(self.manifold.simplify(least), self.labels, self.split)
+        return replace(self, manifold=self.manifold.simplify(least))
 
     def mesh(self) -> Mesh:
         """Closed triangles, wound counter-clockwise seen from outside, with the labels; without faces if empty.
@@ -155,7 +159,10 @@ class Solid:
         """
         if self.checked().manifold.is_empty():
             return Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
-        mesh, least = self._triangles(self.manifold), SLIVER * float(np.ptp(self.bounds, axis=0).max())
+        mesh, least = (
+            triangles(self.manifold, self.labels, self.rules),
+            SLIVER * float(np.ptp(self.bounds, axis=0).max()),
+        )
         if not has_slivers(mesh.triangles, least):
             return mesh
         mesh = self._mended(least)  # booleans of flush faces leave triangles without area
@@ -167,22 +174,8 @@ class Solid:
 
     def _mended(self, least: float) -> Mesh:
         """The mesh without edges, and as far as possible without triangles' heights, below ``least``."""
-        mesh = self._triangles(self.manifold.simplify(least))
-        labels = np.zeros(len(mesh.faces), dtype=np.int64) if mesh.face_labels is None else mesh.face_labels
-        vertices, faces, labels = without_slivers(mesh.vertices, mesh.faces, labels, least)
-        return Mesh(vertices, faces, labels if mesh.label_names else None, mesh.label_names)
-
-    def _triangles(self, manifold: Manifold) -> Mesh:
-        """A manifold's triangles, with the labels of this solid."""
-        mesh = manifold.to_mesh64()
-        lengths = np.diff(mesh.run_index) // 3
-        runs = [self.labels.get(original) for original in mesh.run_original_id]
-        present = {name for name, length in zip(runs, lengths, strict=True) if length}
-        names = tuple(dict.fromkeys(name for name in self.labels.values() if name in present))
-        index: dict[str | None, int] = {name: i for i, name in enumerate(names)}
-        owners = np.repeat(np.array([index.get(name, -1) for name in runs], dtype=np.int64), lengths)
-        vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
-        return Mesh(vertices, faces, owners if names else None, names)
+        mesh = triangles(self.manifold.simplify(least), self.labels, self.rules)
+        return mesh.remade(*without_slivers(mesh.vertices, mesh.faces, np.arange(len(mesh.faces)), least))
 
     def checked(self) -> Solid:
         """The solid itself. Raises ValueError when manifold3d could not make it."""
@@ -205,10 +198,18 @@ class Solid:
         x, y, z = arguments.vector(function, "about", about)
         split = self._each(lambda piece: piece._about(function, about, move))
         if x == y == z == 0.0:
-            return Solid(move(self.manifold), self.labels, split)
-        return Solid(move(self.manifold.translate((-x, -y, -z))).translate((x, y, z)), self.labels, split)
+            return self._moved(move(self.manifold), split)
+        return self._moved(move(self.manifold.translate((-x, -y, -z))).translate((x, y, z)), split)
 
-    def _each(self, change: Callable[[Solid], Solid]) -> Callable[[], tuple[Solid, ...]] | None:
+    def _moved(self, manifold: Manifold, split: Split | None) -> Solid:
+        return Solid(manifold, self.labels, split, self.rules)
+
+    def _joined(self, other: Solid, boolean: Callable[..., Manifold], facing: int, split: Split | None) -> Solid:
+        rules = {**self.rules, **other.rules}
+        made = boolean(*aligned((self.manifold, other.manifold), facing, has_ids(rules)))
+        return Solid(made, {**self.labels, **other.labels}, split, rules)
+
+    def _each(self, change: Callable[[Solid], Solid]) -> Split | None:
         """The pieces after a change, made when they are asked for."""
         return (lambda: tuple(change(piece) for piece in self.pieces)) if self.split else None
 
@@ -234,8 +235,9 @@ def union(*solids: Solid) -> Solid:
     if len(solids) == 1:
         return solids[0]
     labels = {original: name for solid in solids for original, name in solid.labels.items()}
-    made = Manifold.batch_boolean(aligned([solid.manifold for solid in solids]), OpType.Add)
-    return Solid(made, labels, lambda: tuple(piece for solid in solids for piece in solid.pieces))
+    rules = {key: name for solid in solids for key, name in solid.rules.items()}
+    made = Manifold.batch_boolean(aligned([solid.manifold for solid in solids], ids=has_ids(rules)), OpType.Add)
+    return Solid(made, labels, lambda: tuple(piece for solid in solids for piece in solid.pieces), rules)
 
 
 def hull(*solids: Solid) -> Solid:
@@ -254,12 +256,14 @@ def solid_of(points: Floats, faces: Ints) -> Solid:
     return Solid(Manifold(mesh)).checked()
 
 
-def labelled(points: Floats, faces: Ints, owners: Ints, labels: Sequence[str]) -> Solid:
-    """The solid in a closed surface wound outwards, face i (of F, 3) bearing ``labels[owners[i]]``."""
-    first = Manifold.reserve_ids(len(labels))
-    originals = range(first, first + len(labels))
-    manifold = manifold_of(points, faces, owners, originals)
-    return Solid(manifold, dict(zip(originals, labels, strict=True))).checked()
+def labelled(mesh: Mesh) -> Solid:
+    """The solid in a closed surface wound outwards, every face of which has a label, with its labels and rules."""
+    assert mesh.face_labels is not None
+    first = Manifold.reserve_ids(len(mesh.label_names))
+    originals = range(first, first + len(mesh.label_names))
+    rules, face_ids = rule_ids(mesh, originals)
+    manifold = manifold_of(mesh.vertices, mesh.faces, mesh.face_labels, originals, face_ids)
+    return Solid(manifold, dict(zip(originals, mesh.label_names, strict=True)), rules=rules).checked()
 
 
 def _unit(function: str, name: str) -> tuple[float, float, float]:

@@ -3,9 +3,8 @@
 import pytest
 
 import shapewright as sw
-from shapewright.feedback.causes.rules import with_rules
+from shapewright.building import Workers
 from shapewright.feedback.surfaces.residuals import residuals
-from shapewright.modelling.grammar import Grammar, named_by
 from shapewright.shapes import concatenate
 
 SOURCE = """
@@ -44,20 +43,22 @@ def chair(tmp_path_factory):
     return sw.load_procedure(path)
 
 
-def test_meshes_are_named_by_rule_inside_the_block_only(chair):
-    assert set(chair().label_names) == {"leg", "seat", "back"}
-    with named_by("rule"):
-        assert set(chair().label_names) == {"four_legs", "parts", "upright"}
-    assert set(chair().label_names) == {"leg", "seat", "back"}
-    assert isinstance(Grammar(), Grammar)
+def test_replicas_from_workers_bear_labels_and_rules(chair):
+    with Workers(chair, 1) as crew:
+        (build,) = crew.build([chair.space.defaults])
+    assert set(zip(build.shape.labels, build.shape.rules, strict=True)) == {
+        ("leg", "four_legs"),
+        ("seat", "parts"),
+        ("back", "upright"),
+    }
 
 
 def test_surplus_regions_bear_label_and_rule(chair):
     whole = chair()
     kept = [i for i, label in enumerate(whole.labels) if label != "back"]
     stool = sw.Mesh(whole.vertices, whole.faces[kept])
-    (told,) = with_rules(chair, [chair.space.defaults], [residuals(stool, whole)], workers=1)
-    surplus = [region for region in told if region.side == "surplus"]
+    found = residuals(stool, whole)
+    surplus = [region for region in found if region.side == "surplus"]
     assert surplus and (surplus[0].label, surplus[0].rule) == ("back", "upright")
 
 
@@ -73,5 +74,5 @@ def test_a_procedure_without_a_grammar_has_no_rules(tmp_path):
     )
     block = sw.load_procedure(path)
     tall = concatenate([block(), block().transformed([[0.2, 0, 0], [0, 1, 0], [0, 0, 0.2]]), block(height=1.0)])
-    (told,) = with_rules(block, [block.space.defaults], [residuals(tall, block())], workers=1)
-    assert all(region.rule is None for region in told)
+    found = residuals(tall, block())
+    assert all(region.rule is None for region in found)
