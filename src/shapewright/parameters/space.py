@@ -89,9 +89,10 @@ class ParameterSpace:
         return {p.name: values[p.name] if p.name in active else p.default for p in self.parameters}
 
     def carry(self, values: Mapping[str, Value], otherwise: Mapping[str, Value] | None = None) -> Parameters:
-        """Values of another version of the procedure, for this one: what still exists stays, at the nearest value.
+        """Values of another version of the procedure, for this one.
 
-        A parameter that is new, or whose value is no longer an option, is as in ``otherwise``, by default its default.
+        A parameter that still exists keeps its value, or the nearest that this space allows. One that is new, or whose
+        value is no longer an option, takes that of ``otherwise``, or its default.
         """
         fallback = {**self.defaults, **(otherwise or {})}
         return self.canonical({p.name: _nearest(p, values.get(p.name), fallback[p.name]) for p in self.parameters})

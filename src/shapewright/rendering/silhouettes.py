@@ -19,7 +19,9 @@ SIZE = 256
 """Rows and columns of a silhouette; it shows [-1, 1] x [-1, 1]."""
 
 _SUBPIXELS = 256.0
-_BELOW = 2.0**-30  # more than any rounding error, less than the distance of any crossing from a pixel centre
+"""Places of a corner along a pixel, as on graphics hardware."""
+_BELOW = 2.0**-30
+"""Of a pixel: more than any rounding error, less than the distance of any crossing from a pixel centre."""
 
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""What of a mesh can be seen from outside, and what lies inside it: told by its depths in views from all round.
+"""What of a mesh can be seen from outside, and what lies inside it, by its depths in views from all round.
 
 References are triangle soups with faces inside them that nobody sees, and some of their faces point the wrong way, so
 neither closed surfaces nor normals help.

@@ -25,7 +25,12 @@ _TRIANGLES = _QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(12, 3)
 
 
 class Leaf(NamedTuple):
-    """A finished box, its label, and the name of the rule that made it."""
+    """A finished box.
+
+    box: with its form and deformations.
+    label: of its faces, where a side has none of its own.
+    rule: name of the rule that made it.
+    """
 
     box: Box
     label: str
@@ -105,7 +110,7 @@ def _deformed(surface: Surface, deformations: Sequence[Deformation], tolerance: 
 
 
 def _solid(mesh: Mesh, points: int) -> Solid:
-    """The solid in a surface that had so many points before deformations, without the cuts that it does not need."""
+    """The solid in a surface, without needless cuts. points: how many the surface had before it was deformed."""
     solid = labelled(mesh)
     return solid.simplified() if len(mesh.vertices) > points else solid
 

@@ -15,7 +15,11 @@ from shapewright.shapes import Floats, Mesh
 
 @dataclass(frozen=True, eq=False)
 class Derivation:
-    """What a grammar made of a box: a tree, and the shape that its leaves make. tolerance: of facets, a length."""
+    """What a grammar made of a box, and the shape that this is.
+
+    root: of the tree of boxes.
+    tolerance: how far facets may be from the smooth shape, a length.
+    """
 
     root: Node
     tolerance: float
@@ -33,9 +37,10 @@ class Derivation:
     def mesh(self, by: Literal["label", "rule"] = "label", join: bool = True) -> Mesh:
         """The shape: one closed surface, whose faces know their labels and the rules that made them.
 
-        Of boxes with one label what is flat is one face, which knows one of their rules.
-        by: what faces are labelled with. join: unite all boxes, so that the mesh is sound; False leaves each its own
-        closed surface, which takes less time and looks the same from outside.
+        Boxes of one label that lie flush share faces, and such a face knows one of their rules.
+        by: what faces are labelled with.
+        join: True unites all boxes, so that the mesh is sound. False leaves every box its own closed surface, which
+            takes less time and looks the same from outside.
         """
         from shapewright.modelling.grammar import assembly  # compiled code, which takes a while to load
 

@@ -9,6 +9,7 @@ from types import EllipsisType
 from typing import TypeAlias
 
 _ROUNDING = 1e-9
+"""By how much sizes may exceed the whole, as a part of it: more than sums of decimal fractions are off."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,14 @@ class GrammarError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A function for boxes of a tag. when: whether it applies, given the parameters as attributes; None: always."""
+    """A function for boxes of a tag.
+
+    tag: of the boxes that it is for.
+    function: takes such a box, and parameters by name; yields boxes.
+    when: whether it applies, given the parameters as attributes; None: always.
+    needs: names of the parameters that it cannot do without.
+    takes: names of all parameters that it takes.
+    """
 
     tag: str
     function: Callable[..., Any]
@@ -35,7 +42,14 @@ class Rule:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Node:
-    """A box of a derivation, the rule that was applied to it, if any, and what that made of it."""
+    """A box of a derivation.
+
+    box: with its tag.
+    label: of its own, of an ancestor, or its tag.
+    made_by: name of the rule that made it, "" for the first box.
+    rule: name of the rule that was applied to it, "" for a box that is done.
+    children: the boxes that this rule made of it.
+    """
 
     box: Box
     label: str
@@ -51,7 +65,7 @@ class Node:
 
 
 class Expansion:
-    """One derivation while it grows."""
+    """One derivation while it grows: the rules by tag, the parameters, and how many boxes there are by now."""
 
     def __init__(self, rules: Mapping[str, Sequence[Rule]], parameters: dict[str, Any]) -> None:
         self.rules, self.parameters = rules, parameters

@@ -39,8 +39,9 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 class Grammar:
-    """Rules for boxes by tag. ``start`` is the tag that a derivation starts from: that of the first rule by default.
+    """Rules for boxes by tag.
 
+    start: the tag that a derivation starts from, by default that of the first rule.
     tolerance: how far round and bent parts may be from their facets, as a part of the shape's largest extent.
     """
 
