@@ -35,7 +35,7 @@ from shapewright.feedback.explanation import explain
 from shapewright.feedback.suggestions import suggestions
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import residuals
-from shapewright.feedback.surfaces.visible import Surface
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, Prediction
 
@@ -153,7 +153,7 @@ def explained(procedure: sw.Procedure, lost: list[tuple[Build, Replica]], crew: 
     """What is lost, each with the replica that has most of its surface in common."""
     references = judge.references.references
     known = [replace(replica, row=row) for row, (_, replica) in enumerate(lost)]
-    surfaces = [Surface.of(references[replica.row].shape.normalised()) for replica in known]
+    surfaces = [VisibleSurface.of(references[replica.row].shape.normalised()) for replica in known]
     overlays = [Overlay(surface, replica.mesh) for surface, replica in zip(surfaces, known, strict=True)]
     space = procedure.space
     prediction = Prediction.of(space, [space.carry(build.parameters) for build, _ in lost], doubt=0.4)

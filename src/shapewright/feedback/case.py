@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import Residuals
-from shapewright.feedback.surfaces.visible import Surface
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.parameters import Parameters
 from shapewright.shapes import Mesh
 
@@ -118,7 +118,7 @@ class Case:
         )
 
     @property
-    def surface(self) -> Surface:
+    def surface(self) -> VisibleSurface:
         """The visible surface of the normalised reference."""
         return self.residuals.reference
 

@@ -7,7 +7,7 @@ import numpy as np
 from shapewright.building import Workers
 from shapewright.feedback.case import Case, Replica
 from shapewright.feedback.surfaces.residuals import residuals
-from shapewright.feedback.surfaces.visible import Surface
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.judging.judge import Judge
 from shapewright.runs.iteration import Iteration
 from shapewright.shapes import Mesh
@@ -21,7 +21,7 @@ def differences(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]
     """
     threads = judge.settings.workers
     pairs = [(replica, _mesh(judge, replica.row)) for replica in _replicas(iteration, crew)]
-    surfaces = in_threads(Surface.of, [reference for _, reference in pairs], threads)
+    surfaces = in_threads(VisibleSurface.of, [reference for _, reference in pairs], threads)
     compared = in_threads(
         lambda pair: residuals(*pair),
         [(surface, replica.mesh) for surface, (replica, _) in zip(surfaces, pairs, strict=True)],

@@ -89,9 +89,9 @@ def _case(case: Case) -> dict[str, Any]:
 def _region(region: Region) -> dict[str, Any]:
     return {
         "side": region.side,
-        "centre": _rounded(region.centre),
-        "size": _rounded(region.size),
-        "axes": [_rounded(axis) for axis in region.axes],
+        "centre": _rounded(region.box.centre),
+        "size": _rounded(region.box.size),
+        "axes": [_rounded(axis) for axis in region.box.axes],
         "share": round(region.share, 4),
         "distance": round(region.distance, 4),
         "label": region.label,

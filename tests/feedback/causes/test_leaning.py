@@ -5,7 +5,7 @@ import shapewright as sw
 from shapewright.building import Workers
 from shapewright.feedback.causes.leaning import leaning
 from shapewright.feedback.surfaces.placement import Overlay
-from shapewright.feedback.surfaces.visible import Surface
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.modelling.solids import box, cylinder
 
 SOURCE = """
@@ -40,7 +40,7 @@ def legs(factor):
 
 
 def leanings(table, references, found):
-    overlays = [Overlay(Surface.of(solid.mesh().normalised())) for solid in references]
+    overlays = [Overlay(VisibleSurface.of(solid.mesh().normalised())) for solid in references]
     with Workers(table, 1) as crew:
         return leaning(crew, list(zip(found, overlays, strict=True)), 1), overlays
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from shapewright.feedback.surfaces.point_grid import Cells
-from shapewright.feedback.surfaces.visible import Surface
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.modelling.solids import box, sphere
 
 MOST = 0.08
@@ -12,7 +12,7 @@ MOST = 0.08
 
 @pytest.mark.parametrize("scale", [1.0, 0.02, 30.0])
 def test_distances_are_those_of_the_whole_surface_up_to_the_cap(scale):
-    surface = Surface.roughly((box((1, 0.2, 0.5)) | sphere(0.6, at=(0.2, 0.3, 0))).scale(scale).mesh(), 1000)
+    surface = VisibleSurface.roughly((box((1, 0.2, 0.5)) | sphere(0.6, at=(0.2, 0.3, 0))).scale(scale).mesh(), 1000)
     asked = np.random.default_rng(0).uniform(-0.5, 0.5, (2000, 3)) * scale
     most = MOST * scale
     found, exact = surface.nearness(asked, most), surface.distance(asked)

@@ -3,7 +3,7 @@ import pytest
 
 from shapewright.feedback.surfaces.placement import best_fit
 from shapewright.feedback.surfaces.residuals import residuals
-from shapewright.feedback.surfaces.visible import Surface
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.modelling.solids import box, cylinder
 from shapewright.shapes import Mesh, concatenate
 
@@ -46,10 +46,10 @@ def test_a_missing_part_is_one_region_in_its_place(make):
     found = residuals(make(table(stretcher=True)), table())
     (region,) = found.regions
     assert region.side == "unexplained" and region.label == "legs"
-    assert np.allclose(region.centre, (0, 0.2 - 0.35, 0), atol=0.03)
-    assert np.allclose(region.size, (0.84, 0.06, 0.06), atol=0.07)
-    assert np.allclose(region.axes, np.eye(3))
-    assert region.share == pytest.approx(0.84 * 4 * 0.06 / Surface.of(table(stretcher=True)).area, rel=0.2)
+    assert np.allclose(region.box.centre, (0, 0.2 - 0.35, 0), atol=0.03)
+    assert np.allclose(region.box.size, (0.84, 0.06, 0.06), atol=0.07)
+    assert np.allclose(region.box.axes, np.eye(3))
+    assert region.share == pytest.approx(0.84 * 4 * 0.06 / VisibleSurface.of(table(stretcher=True)).area, rel=0.2)
     assert 0.2 < region.distance < 0.35 and share(found, "surplus") == 0.0
     assert share(found, "unexplained") == region.share
 
@@ -62,11 +62,11 @@ def test_a_surplus_part_bears_its_own_label():
 
 def test_a_part_that_moves_the_bounding_box_does_not_move_the_rest():
     found = residuals(table(back=True), table())
-    surfaces = [Surface.of(mesh.normalised()) for mesh in (table(back=True), table())]
+    surfaces = [VisibleSurface.of(mesh.normalised()) for mesh in (table(back=True), table())]
     assert best_fit(*surfaces).anchors[1] == 0.0
     (region,) = found.regions
     assert region.side == "unexplained" and region.label == "top"
-    assert region.centre[1] == pytest.approx((1.0 - 0.65) / 1.3, abs=0.03)
+    assert region.box.centre[1] == pytest.approx((1.0 - 0.65) / 1.3, abs=0.03)
     assert found.placement.scale == pytest.approx(1 / 1.3, rel=0.02)
 
 
@@ -81,21 +81,21 @@ def test_a_turned_part_has_a_turned_box():
     bar = box((0.5, 0.05, 0.05)).rotate(40, "y").translate((0, 0.2, 0))
     reference = concatenate([table(), Mesh(bar.mesh().vertices, bar.mesh().faces)])
     (region,) = residuals(reference, table()).regions
-    assert sorted(region.size)[2] == pytest.approx(0.5, abs=0.05) and sorted(region.size)[1] < 0.1
-    assert abs(region.axes[0] @ np.array([np.cos(np.radians(40)), 0, -np.sin(np.radians(40))])) > 0.98
-    assert np.allclose(region.axes @ region.axes.T, np.eye(3))
+    assert sorted(region.box.size)[2] == pytest.approx(0.5, abs=0.05) and sorted(region.box.size)[1] < 0.1
+    assert abs(region.box.axes[0] @ np.array([np.cos(np.radians(40)), 0, -np.sin(np.radians(40))])) > 0.98
+    assert np.allclose(region.box.axes @ region.box.axes.T, np.eye(3))
 
 
 def test_what_lies_inside_is_not_seen():
     around, within = box((1, 1, 1)).mesh(), cylinder((0.5, 0.5, 0.5)).mesh()
-    surface = Surface.of(concatenate([around, within]), 2000)
+    surface = VisibleSurface.of(concatenate([around, within]), 2000)
     of_cube = surface.faces < len(around.faces)
     assert surface.visible[of_cube].mean() > 0.99 and not surface.visible[~of_cube].any()
     assert surface.area == pytest.approx(6.0, rel=0.05)
 
 
 def test_distance_is_to_the_surface_not_to_the_nearest_sample():
-    surface = Surface.of(box((1, 1, 1)).mesh(), 3000)
+    surface = VisibleSurface.of(box((1, 1, 1)).mesh(), 3000)
     rng = np.random.default_rng(0)
     points = np.column_stack([rng.uniform(-0.4, 0.4, (100, 2)), np.full(100, 0.6)])
     assert np.allclose(surface.distance(points), 0.1, atol=1e-3)

@@ -16,6 +16,8 @@ PartCause: TypeAlias = Literal["missing part", "surplus part", "wrong form"]
 _APART = 0.06  # mean distance from the replica at which a region is a part of its own, not the same part's other form
 _WHOLE = 0.6  # share of a part that has to be too much for the part to be
 _ALIKE = 1.6  # ratio of the sides of two boxes up to which they are the same part in two places
+_SLACK = 0.03  # added to sides before they are compared
+_NEARBY = 0.15  # how far apart the middles of such boxes may be, where both are smaller
 _LESSER = 0.5  # of a surplus part where something is unexplained: it stands in for that
 _MINOR = 0.3  # of the weightiest difference: below it is left out
 
@@ -63,8 +65,8 @@ def _moved(residuals: Residuals) -> set[int]:
     free = list(residuals.of("surplus"))
     for missing in residuals.of("unexplained"):
         for surplus in free:
-            gap = float(np.linalg.norm(missing.centre - surplus.centre))
-            if gap < max(missing.size.max(), 0.15) and _alike(missing.size, surplus.size):
+            gap = float(np.linalg.norm(missing.box.centre - surplus.box.centre))
+            if gap < max(missing.box.size.max(), _NEARBY) and _alike(missing.box.size, surplus.box.size):
                 ids |= {id(missing), id(surplus)}
                 free.remove(surplus)
                 break
@@ -72,7 +74,7 @@ def _moved(residuals: Residuals) -> set[int]:
 
 
 def _alike(a: Floats, b: Floats) -> bool:
-    ratio = (np.sort(a) + 0.03) / (np.sort(b) + 0.03)
+    ratio = (np.sort(a) + _SLACK) / (np.sort(b) + _SLACK)
     return bool(np.maximum(ratio, 1.0 / ratio).max() < _ALIKE)
 
 
@@ -80,7 +82,7 @@ def _cause(kind: PartCause, regions: list[Region], weight: float) -> Cause:
     share = {side: sum(r.share for r in regions if r.side == side) for side in ("unexplained", "surplus")}
     chief = max(regions, key=lambda region: region.weight)
     near = f" near {chief.label}" if chief.label else ""
-    size = " x ".join(f"{side:.2f}" for side in chief.size)
+    size = " x ".join(f"{side:.2f}" for side in chief.box.size)
     more = f" and {len(regions) - 1} more" if len(regions) > 1 else ""
     match kind:
         case "missing part":
@@ -94,8 +96,8 @@ def _cause(kind: PartCause, regions: list[Region], weight: float) -> Cause:
         "regions": len(regions),
         "label": chief.label,
         "rule": chief.rule,
-        "centre": chief.centre.round(4).tolist(),
-        "size": chief.size.round(4).tolist(),
+        "centre": chief.box.centre.round(4).tolist(),
+        "size": chief.box.size.round(4).tolist(),
         "unexplained": round(share["unexplained"], 4),
         "surplus": round(share["surplus"], 4),
         "weight": round(weight, 5),

@@ -9,7 +9,7 @@ import numpy as np
 from shapewright.comparison.surfaces import area, sample
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.surfaces.connection import connected
-from shapewright.feedback.surfaces.visible import Surface
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.shapes import Floats, Mesh
 
 # Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
@@ -46,7 +46,7 @@ def separate(mesh: Mesh) -> int:
     parts = _components(mesh)
     if len(parts) <= 1:
         return 1
-    surfaces = [Surface.roughly(part, _FEW) for part in parts]
+    surfaces = [VisibleSurface.roughly(part, _FEW) for part in parts]
     first, second = np.triu_indices(len(parts), 1)
     near = [_apart(parts[i], surfaces[i], parts[j], surfaces[j]) < _GAP for i, j in zip(first, second, strict=True)]
     return connected(len(parts), first[near], second[near])[0]
@@ -62,7 +62,7 @@ def _components(mesh: Mesh) -> list[Mesh]:
     return [part for part in parts if area(part) > 0.0]
 
 
-def _apart(a: Mesh, on_a: Surface, b: Mesh, on_b: Surface) -> float:
+def _apart(a: Mesh, on_a: VisibleSurface, b: Mesh, on_b: VisibleSurface) -> float:
     corners = np.unique(a.faces), np.unique(b.faces)
     return min(float(on_b.distance(a.vertices[corners[0]]).min()), float(on_a.distance(b.vertices[corners[1]]).min()))
 

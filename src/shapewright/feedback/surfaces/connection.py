@@ -16,6 +16,8 @@ def connected(count: int, first: Ints, second: Ints) -> tuple[int, NDArray[np.in
 
     first, second: indices (K,) of things that are neighbours.
     """
+    if not count:
+        return 0, np.empty(0, dtype=np.intp)
     links = coo_matrix((np.ones(len(first)), (first, second)), shape=(count, count))
     number, component = connected_components(links, directed=False)
     return int(number), component

@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from shapewright.feedback.surfaces.visible import Surface
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.shapes import Floats, Mesh, Shape, Transform
 
 FURTHEST = 0.05
@@ -47,12 +47,12 @@ class Fit:
 MIDDLE = Fit()
 
 
-def place(reference: Surface, replica: Surface) -> Transform:
+def place(reference: VisibleSurface, replica: VisibleSurface) -> Transform:
     """The scale and shift of a normalised replica under which the two surfaces are nearest to each other."""
     return best_fit(reference, replica).transform(_bounds(reference), _bounds(replica))
 
 
-def best_fit(reference: Surface, replica: Surface) -> Fit:
+def best_fit(reference: VisibleSurface, replica: VisibleSurface) -> Fit:
     """How a normalised replica is laid over its reference so that the two surfaces are nearest to each other.
 
     Tried are, per axis, equal extents, and lower sides, middles and upper sides that coincide.
@@ -80,9 +80,9 @@ class Overlay:
     further than FURTHEST count alike, so what the two have in common decides. That tells best which parts are missing.
     """
 
-    def __init__(self, reference: Surface, replica: Mesh | None = None) -> None:
+    def __init__(self, reference: VisibleSurface, replica: Mesh | None = None) -> None:
         """replica: one whose best fit is tried as well as the middle."""
-        fits = [best_fit(reference, Surface.roughly(replica.normalised()))] if replica else []
+        fits = [best_fit(reference, VisibleSurface.roughly(replica.normalised()))] if replica else []
         self._reference, self._points, self._bounds = reference, _thinned(reference, _OVERLAID), _bounds(reference)
         self._fits = tuple(dict.fromkeys([MIDDLE, *fits]))
 
@@ -99,7 +99,7 @@ class Overlay:
         if not isinstance(replica, Mesh):
             return None
         try:
-            surface = Surface.roughly(replica.normalised(), _DRAWN)
+            surface = VisibleSurface.roughly(replica.normalised(), _DRAWN)
         except ValueError:
             return None
         own = _bounds(surface)
@@ -109,7 +109,9 @@ class Overlay:
         return min(gaps, key=lambda distances: float(distances.sum())) * (UNIT / FURTHEST)
 
 
-def _gaps(reference: Surface, replica: Surface, theirs: Floats, ours: Floats, transform: Transform) -> Floats:
+def _gaps(
+    reference: VisibleSurface, replica: VisibleSurface, theirs: Floats, ours: Floats, transform: Transform
+) -> Floats:
     """Distances there and back of points of two surfaces, none beyond FURTHEST; both sides count the same."""
     there = transform.scale * replica.nearness(transform.invert(theirs), FURTHEST / transform.scale)
     back = reference.nearness(transform.apply(ours), FURTHEST)
@@ -131,11 +133,11 @@ def _different(theirs: Floats, ours: Floats) -> Iterator[Fit]:
             yield Fit(axis, (x, y, z))
 
 
-def _thinned(surface: Surface, count: int = _POINTS) -> Floats:
+def _thinned(surface: VisibleSurface, count: int = _POINTS) -> Floats:
     points = surface.points[surface.visible]
     return points[:: max(1, len(points) // count)]
 
 
-def _bounds(surface: Surface) -> Floats:
+def _bounds(surface: VisibleSurface) -> Floats:
     points = surface.points[surface.visible]
     return np.stack([points.min(axis=0), points.max(axis=0)])

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.feedback.surfaces.connection import connected_points
-from shapewright.feedback.surfaces.oriented_boxes import fit_box
+from shapewright.feedback.surfaces.oriented_boxes import OrientedBox, fit_box
 from shapewright.feedback.surfaces.placement import place
-from shapewright.feedback.surfaces.visible import Surface
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.shapes import Floats, Ints, Mesh, Transform
 
 RegionSide = Literal["unexplained", "surplus"]
@@ -36,21 +36,17 @@ class Region:
     Attributes:
         side: "unexplained", of the reference; "surplus", of the replica.
         points: (N, 3), spread evenly over it.
-        centre: (3,), of the box around it.
-        size: (3,), of the box along its axes.
-        axes: (3, 3), whose rows are the box's unit vectors.
+        box: around it.
         share: of that side's visible surface, 0 to 1.
         distance: mean, to the other surface.
         label: of the replica's part that it lies on or is nearest to, None where that has none.
         rule: of the grammar that made that part, None where there is none.
-        rows: of that side's ``Surface``.
+        rows: of that side's ``VisibleSurface``.
     """
 
     side: RegionSide
     points: Floats
-    centre: Floats
-    size: Floats
-    axes: Floats
+    box: OrientedBox
     share: float
     distance: float
     label: str | None
@@ -79,8 +75,8 @@ class Residuals:
     regions: tuple[Region, ...]
     placement: Transform
     mesh: Mesh
-    reference: Surface
-    replica: Surface
+    reference: VisibleSurface
+    replica: VisibleSurface
     to_replica: Floats
     to_reference: Floats
 
@@ -91,15 +87,15 @@ class Residuals:
         return tuple(region for region in self.regions if region.side == side)
 
 
-def residuals(reference: Mesh | Surface, replica: Mesh) -> Residuals:
+def residuals(reference: Mesh | VisibleSurface, replica: Mesh) -> Residuals:
     """Compare the surfaces of a reference and its replica, of which only what can be seen from outside is judged.
 
     The replica is first laid over the reference: both are upright, but a missing part moves the bounding box, so
     besides the two boxes' middles their sides are tried. reference: the mesh, or the surface of the normalised mesh
     where that is known. Raises ValueError for a mesh without area.
     """
-    of_reference = Surface.of(reference.normalised()) if isinstance(reference, Mesh) else reference
-    of_replica = Surface.of(replica.normalised())
+    of_reference = VisibleSurface.of(reference.normalised()) if isinstance(reference, Mesh) else reference
+    of_replica = VisibleSurface.of(replica.normalised())
     shift = place(of_reference, of_replica)
     of_replica = of_replica.moved(shift)
     to_replica, to_reference = of_replica.distance(of_reference.points), of_reference.distance(of_replica.points)
@@ -114,34 +110,34 @@ def residuals(reference: Mesh | Surface, replica: Mesh) -> Residuals:
     return Residuals(ordered, placement, replica, of_reference, of_replica, to_replica, to_reference)
 
 
-def pieces(surface: Surface, mesh: Mesh) -> NDArray[np.intp]:
+def pieces(surface: VisibleSurface, mesh: Mesh) -> NDArray[np.intp]:
     """Which piece of the mesh each point lies on, (N,): a piece is connected and of one label; -1 where none is."""
     result = np.full(len(surface.points), -1, dtype=np.intp)
     labels = np.full(len(surface.points), -1) if mesh.face_labels is None else mesh.face_labels[surface.faces]
     count = 0
     for label in np.unique(labels[labels >= 0]):
         rows = np.flatnonzero(surface.visible & (labels == label))
-        number, component = _connected(surface, rows)
+        number, component = connected_points(surface.points[rows], _LINK * surface.spacing)
         result[rows] = component + count
         count += number
     return result
 
 
-def _regions(side: RegionSide, surface: Surface, distance: Floats, replica: Surface, mesh: Mesh) -> Iterator[Region]:
+def _regions(
+    side: RegionSide, surface: VisibleSurface, distance: Floats, replica: VisibleSurface, mesh: Mesh
+) -> Iterator[Region]:
+    """The regions of one of the surfaces. distance: of its points to the other. replica: the surface of the mesh."""
     visible = int(surface.visible.sum())
     for rows in _components(surface, distance):
         if len(rows) < max(LEAST * visible, _FEWEST):
             continue
         points = surface.points[rows]
-        box = fit_box(points)
         some = points[:: max(1, len(points) // _VOTERS)]
         faces = surface.faces[rows] if side == "surplus" else replica.faces[replica.tree.query(some)[1]]
         yield Region(
             side,
             points,
-            box.centre,
-            box.size,
-            box.axes,
+            fit_box(points),
             len(rows) / visible,
             float(distance[rows].mean()),
             _commonest(mesh.face_labels, mesh.label_names, faces),
@@ -150,20 +146,13 @@ def _regions(side: RegionSide, surface: Surface, distance: Floats, replica: Surf
         )
 
 
-def _components(surface: Surface, distance: Floats) -> list[NDArray[np.intp]]:
+def _components(surface: VisibleSurface, distance: Floats) -> list[NDArray[np.intp]]:
     """Rows of the points of each region: connected, all beyond NEAR and some beyond FAR."""
     rows = np.flatnonzero(surface.visible & (distance > NEAR))
-    count, component = _connected(surface, rows)
+    count, component = connected_points(surface.points[rows], _LINK * surface.spacing)
     far = np.zeros(count, dtype=bool)
     far[component[distance[rows] > FAR]] = True
     return [rows[component == number] for number in np.flatnonzero(far)]
-
-
-def _connected(surface: Surface, rows: NDArray[np.intp]) -> tuple[int, NDArray[np.intp]]:
-    """How many connected sets these points form, and which of them each belongs to."""
-    if not len(rows):
-        return 0, np.empty(0, dtype=np.intp)
-    return connected_points(surface.points[rows], _LINK * surface.spacing)
 
 
 def _commonest(indices: Ints | None, names: Sequence[str], faces: Ints) -> str | None:

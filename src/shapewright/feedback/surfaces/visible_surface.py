@@ -1,4 +1,4 @@
-"""What of a mesh can be seen from outside: points spread evenly over its visible surface.
+"""The part of a mesh that can be seen from outside, as points spread evenly over it.
 
 References are triangle soups with faces inside them that nobody sees; only what some view shows is judged.
 """
@@ -19,19 +19,24 @@ from shapewright.rendering.visibility import AllRound
 from shapewright.shapes import Floats, Ints, Mesh, Transform
 
 SAMPLES = 4000
+"""Points of a surface, at least."""
 _SIZE, _RADIUS = 160, 0.87
 """Pixels of the views that show what is visible, and the radius of what they show: of all of a normalised mesh."""
-_ROUNDS = 3
+_ROUNDS = 3  # of drawing more points, until half of those asked for can be seen
 _NEARBY = 0.05  # up to which distance is measured by cells, which are quicker than a tree
 _REACH = 1.0  # spacings around a point within which its tangent plane stands for the surface
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class VisibleSurface:
     """Points spread evenly over a mesh's surface. Units are those of the mesh.
 
-    points, normals: (N, 3), of either orientation. faces: (N,), the face each lies on. visible: (N,), whether some
-    view from outside shows it. area: of the surface that can be seen.
+    Attributes:
+        points: (N, 3).
+        normals: (N, 3), of either orientation.
+        faces: (N,), the face that each point lies on.
+        visible: (N,), whether some view from outside shows it.
+        area: of the surface that can be seen.
     """
 
     points: Floats
@@ -41,7 +46,7 @@ class Surface:
     area: float
 
     @classmethod
-    def of(cls, mesh: Mesh, count: int = SAMPLES, seed: int = 0) -> Surface:
+    def of(cls, mesh: Mesh, count: int = SAMPLES, seed: int = 0) -> VisibleSurface:
         """At least ``count`` points, more where much of the surface is hidden, at most three times as many.
 
         mesh: normalised. Raises ValueError for a mesh without area, or one that no view shows.
@@ -66,7 +71,7 @@ class Surface:
         )
 
     @classmethod
-    def roughly(cls, mesh: Mesh, count: int = 1000, seed: int = 0) -> Surface:
+    def roughly(cls, mesh: Mesh, count: int = 1000, seed: int = 0) -> VisibleSurface:
         """``count`` points of the whole surface, all taken to be visible, as they are where nothing lies inside."""
         drawn = sample(mesh, count, seed)
         return cls(drawn.points, drawn.normals, drawn.faces, np.ones(count, dtype=bool), drawn.area)
@@ -86,19 +91,19 @@ class Surface:
         """Side of the square that each point stands for."""
         return math.sqrt(self.area / max(int(self.visible.sum()), 1))
 
-    def moved(self, transform: Transform) -> Surface:
+    def moved(self, transform: Transform) -> VisibleSurface:
         """The same points elsewhere."""
         return replace(self, points=transform.apply(self.points), area=self.area * transform.scale**2)
 
     def distance(self, points: Floats) -> Floats:
         """Distance (M,) of points (M, 3) to the surface: to the tangent plane of the nearest point, near to it."""
-        found = self.nearness(points, _NEARBY)
-        far = np.flatnonzero(found >= _NEARBY)
+        away = self.nearness(points, _NEARBY)
+        far = np.flatnonzero(away >= _NEARBY)
         straight, nearest = self.tree.query(points[far])
         above = np.abs(((points[far] - self.points[nearest]) * self.normals[nearest]).sum(axis=1))
         aside = np.sqrt(np.maximum(straight**2 - above**2, 0.0))
-        found[far] = np.hypot(above, np.maximum(aside - _REACH * self.spacing, 0.0))
-        return found
+        away[far] = np.hypot(above, np.maximum(aside - _REACH * self.spacing, 0.0))
+        return away
 
     def nearness(self, points: Floats, most: float) -> Floats:
         """The same, ``most`` where it is more: at a tenth of the time."""
