@@ -19,22 +19,18 @@ def differences(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]
 
     judge: knows the iteration's references, in its order.
     """
-    threads = judge.settings.workers
-    pairs = [(replica, _mesh(judge, replica.row)) for replica in _replicas(iteration, crew)]
-    surfaces = in_threads(VisibleSurface.of, [reference for _, reference in pairs], threads)
-    compared = in_threads(
-        lambda pair: residuals(*pair),
-        [(surface, replica.mesh) for surface, (replica, _) in zip(surfaces, pairs, strict=True)],
-        threads,
-    )
-    return [
-        Case.of(iteration.names[replica.row], reference, iteration.results[replica.row].compatible, replica, where)
-        for (replica, reference), where in zip(pairs, compared, strict=True)
-    ]
+
+    def case(replica: Replica) -> Case:
+        result, reference = iteration.results[replica.row], judge.references.references[replica.row].shape
+        assert isinstance(reference, Mesh)
+        where = residuals(VisibleSurface.of(reference), replica.mesh)
+        return Case.of(result.name, reference, result.compatible, replica, where)
+
+    return in_threads(case, _replicas(iteration, crew), judge.settings.workers)
 
 
 def _replicas(iteration: Iteration, crew: Workers) -> list[Replica]:
-    """The iteration's replicas, built again: those that it keeps on disk have no labels."""
+    """The iteration's replicas, built again: the files of a run keep them in single precision."""
     names = crew.procedure.space.names
     results = iteration.results
     vectors = {
@@ -48,9 +44,3 @@ def _replicas(iteration: Iteration, crew: Workers) -> list[Replica]:
         for row, build in zip(vectors, builds, strict=True)
         if isinstance(build.shape, Mesh) and np.isfinite(results[row].distance)
     ]
-
-
-def _mesh(judge: Judge, row: int) -> Mesh:
-    shape = judge.references.references[row].shape
-    assert isinstance(shape, Mesh)
-    return shape
