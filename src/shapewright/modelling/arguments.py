@@ -12,10 +12,12 @@ from shapewright.shapes import Floats
 
 Axis: TypeAlias = Literal["x", "y", "z"]
 Direction: TypeAlias = Literal["x", "y", "z", "-x", "-y", "-z"]
+Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
 Vector: TypeAlias = Sequence[float] | Floats
 Point: TypeAlias = tuple[float, float, float]
 
 ORIGIN = (0.0, 0.0, 0.0)
+SIDES: tuple[Side, ...] = ("left", "right", "bottom", "top", "back", "front")
 _AXES = ("x", "y", "z")
 
 
@@ -78,3 +80,10 @@ def direction(function: str, value: str, name: str = "axis") -> tuple[int, int]:
     if value.removeprefix("-") not in _AXES:
         raise ValueError(f"{function}: {name}={value!r} must be 'x', 'y', 'z', '-x', '-y' or '-z'")
     return _AXES.index(value[-1]), -1 if value.startswith("-") else 1
+
+
+def side(function: str, value: str) -> tuple[int, int]:
+    """The index of a side's axis, and 0 for its low or 1 for its high end."""
+    if value not in SIDES:
+        raise ValueError(f"{function}: {value!r} must be one of {', '.join(SIDES)}")
+    return divmod(SIDES.index(value), 2)

@@ -1,4 +1,4 @@
-"""Solids to write procedures with: primitives, sweeps, furniture's details, moves, booleans and deformations.
+"""Solids to write procedures with: primitives, sweeps, furniture's details, anchors, moves, booleans, deformations.
 
 Space is Y up with the front towards +Z, in units of your own. Every primitive takes its ``size`` (width along x, height
 along y, depth along z; one number for three equal ones), which it fills, and ``at``, where its centre goes:
@@ -12,6 +12,7 @@ The booleans are those of manifold3d, which evaluates them when a mesh, a volume
 coordinates are double precision throughout. docs/modelling.md shows everything here in pictures.
 """
 
+from shapewright.modelling.anchors import Space, between, face, on, under, within
 from shapewright.modelling.arguments import Axis, Direction, Vector
 from shapewright.modelling.curves import bezier, spline
 from shapewright.modelling.solid.details import (
@@ -32,7 +33,9 @@ __all__ = [
     "Direction",
     "Polygon",
     "Solid",
+    "Space",
     "Vector",
+    "between",
     "bezier",
     "box",
     "chamfered_box",
@@ -41,8 +44,10 @@ __all__ = [
     "cylinder",
     "ellipse",
     "extrude",
+    "face",
     "hull",
     "loft",
+    "on",
     "prism",
     "rectangle",
     "revolve",
@@ -53,5 +58,7 @@ __all__ = [
     "sweep",
     "tapered_leg",
     "turned_leg",
+    "under",
     "union",
+    "within",
 ]

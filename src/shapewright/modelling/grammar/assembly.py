@@ -10,10 +10,11 @@ from typing import NamedTuple
 import numpy as np
 from manifold3d import Manifold
 
+from shapewright.modelling.arguments import SIDES
 from shapewright.modelling.deformation import Deformation
 from shapewright.modelling.facets import Surface, deformed
 from shapewright.modelling.grammar.boxes import Box
-from shapewright.modelling.grammar.forms import SIDES, Fill, Round
+from shapewright.modelling.grammar.forms import Fill, Round
 from shapewright.modelling.grammar.grid_union import unite
 from shapewright.modelling.solid.sections import without_repeats
 from shapewright.modelling.solid.solid import Solid, labelled, union

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from shapewright.modelling import arguments, deformation, verbs
-from shapewright.modelling.arguments import Axis, Direction, Point, Vector
+from shapewright.modelling.arguments import Axis, Direction, Point, Side, Vector
 from shapewright.modelling.curves import TOLERANCE
 from shapewright.modelling.deformation import Deformation, Domain
 from shapewright.modelling.grammar import divisions
 from shapewright.modelling.grammar.divisions import Size
-from shapewright.modelling.grammar.forms import Fields, Fill, Group, Round, Side, replaced, side_index
+from shapewright.modelling.grammar.forms import Fields, Fill, Group, Round, replaced
 from shapewright.modelling.solid.solid import Solid
 from shapewright.shapes import Floats
 
@@ -55,7 +55,7 @@ class Box(Fields):
     def label(self, name: str, *sides: Side) -> Box:
         """A label for all that the box becomes, instead of tags; or for some sides of a box that no rule divides."""
         for side in sides:
-            side_index("label", side)
+            arguments.side("label", side)
         mine = {key: value for key, value in self.names if key not in (sides or (None,))}
         return self._replace(names=(*mine.items(), *((side, name) for side in sides or (None,))))
 
@@ -251,7 +251,7 @@ class Box(Fields):
         return flat[0]
 
     def _side_direction(self, side: Side) -> tuple[int, int]:
-        index, sign = divmod(side_index("face", side), 2)
+        index, sign = arguments.side("face", side)
         return index, self.facing[index] * (1 if sign else -1)
 
     def _pieces(self, verb: str, axis: str, divide: Callable[[float], list[tuple[float, float]]]) -> list[Box]:

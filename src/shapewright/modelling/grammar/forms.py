@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
-from shapewright.modelling.arguments import Point
+from shapewright.modelling.arguments import Point, Side
 from shapewright.modelling.deformation import Deformation
 from shapewright.modelling.solid.solid import Solid
 
 T = TypeVar("T")
-Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
-SIDES: tuple[Side, ...] = ("left", "right", "bottom", "top", "back", "front")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,13 +61,6 @@ class Fields(NamedTuple):
     deformations: tuple[Deformation, ...] = ()
     groups: tuple[Group, ...] = ()
     is_void: bool = False
-
-
-def side_index(verb: str, side: str) -> int:
-    """The index of a side among SIDES."""
-    if side not in SIDES:
-        raise ValueError(f"{verb}: {side!r} must be one of {', '.join(SIDES)}")
-    return SIDES.index(side)
 
 
 def replaced(values: tuple[T, T, T], index: int, value: T) -> tuple[T, T, T]:
