@@ -67,6 +67,11 @@ def test_a_shelf_is_told_relative_to_the_table(tmp_path):
     rule = addition([shelf], FRAMES, [], None, [""], FREE, "A plate.")
     assert [q.name for q in rule.quantities] == ["plate_thickness", "plate_level"]
     assert rule.quantities[1].values == pytest.approx([0.3] * 4)
+    assert rule.function.splitlines()[2:] == [
+        "    room = within(shape)",
+        '    plate = within(room, (None, plate_thickness * room.height, None), y=plate_level).fill(box).label("plate")',
+        "    return shape | plate",
+    ]
     procedure = built(tmp_path, rule)
     assert procedure.space.names == ("height", "depth", "plate", "plate_thickness", "plate_level")
     assert procedure.space.active(procedure.space.defaults) == ("height", "depth", "plate")
@@ -80,7 +85,16 @@ def test_a_pedestal_reaches_from_its_foot_to_the_top_in_place_of_the_legs(tmp_pa
     column = pieces(lambda h, d: [(-0.05, 0.04, -0.05), (0.05, h - 0.05, 0.05)], "cylinder")
     rule = addition([foot, column], FRAMES, ["legs"], None, ["", ""], FREE, "A pedestal.")
     assert [q.name for q in rule.quantities] == ["disc_width", "disc_thickness", "column_thickness"]
-    assert 'disc.bounds[1, 1], shape.part("top").bounds[0, 1]' in rule.function
+    assert rule.function.splitlines()[2:] == [
+        "    room = within(shape)",
+        '    space = within(room, (disc_width * room.width, disc_thickness * room.height, None), y="bottom")',
+        '    disc = space.fill(cylinder).label("disc")',
+        '    room = within(shape, y=between(disc, shape.part("top")))',
+        "    thickness = column_thickness * room.width",
+        '    column = within(room, (thickness, None, thickness)).fill(cylinder).label("column")',
+        '    return shape.without("legs") | disc | column',
+    ]
+    assert rule.imports == ("between", "cylinder", "within")
     mesh = built(tmp_path, rule)(height=0.9, disc_and_column=True)
     assert mesh.label_names == ("top", "disc", "column") and mesh.soundness().sound
     assert part(mesh, "column")[1, 1] == pytest.approx(0.85)
@@ -111,7 +125,7 @@ def test_a_piece_is_called_what_most_are():
     columns = [replace(piece, kind="cylinder") for piece in posts]
     for several, name in (([posts[0], *columns[1:]], "column"), ([*columns[:1], *posts[1:]], "post")):
         rule = addition([several], FRAMES, [], None, [""], FREE, "One.")
-        assert rule.name == f"add_{name}" and (name == "column") == ("cylinder(" in rule.function)
+        assert rule.name == f"add_{name}" and (name == "column") == ("fill(cylinder)" in rule.function)
 
 
 def test_slats_have_a_count(tmp_path):

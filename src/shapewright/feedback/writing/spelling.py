@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,20 +11,22 @@ import numpy as np
 from shapewright.feedback.parts.pieces import SLOPE, SPOKES, WIDER_FOOT, WIDER_TOP, Kind, Piece
 from shapewright.feedback.parts.relations import NEW, WHOLE, Along, Frames, equal_sizes
 from shapewright.feedback.writing.edit import NewParameter
+from shapewright.modelling.arguments import SIDES, Side
 
 LINE = 116  # characters, indented by four
-_CORNERS = (("left", "bottom", "back"), ("right", "top", "front"))
-_SIDES = ("width", "height", "depth")
+_SIZES = ("width", "height", "depth")
 _PLACES = ("x", "level", "z")
-_CALLS: dict[Kind, str] = {
-    "box": "box({size}, {at})",
-    "cylinder": "cylinder({size}, {at})",
-    "rod x": 'cylinder({turned}).rotate(90, "z").translate({at})',
-    "rod z": 'cylinder({turned}).rotate(90, "x").translate({at})',
-    "frustum": f"cone({{size}}, {{at}}, top=1, bottom={WIDER_TOP})",
-    "foot": f"cone({{size}}, {{at}}, top={WIDER_FOOT})",
-    "sphere": "sphere({size}, {at})",
+_FILLED: dict[Kind, str] = {
+    "box": "box",
+    "cylinder": "cylinder",
+    "rod x": 'cylinder, along="x"',
+    "rod z": 'cylinder, along="z"',
+    "frustum": f"cone, top=1, bottom={WIDER_TOP}",
+    "foot": f"cone, top={WIDER_FOOT}",
+    "sphere": "sphere",
 }
+_KIT = ("between", "box", "cone", "cylinder", "face", "on", "slats", "sphere", "under", "within")
+_CENTRED = 2e-3  # of its extent: how far the middle of a frame may be from the origin that copies are mirrored about
 
 
 @dataclass(frozen=True)
@@ -50,102 +52,43 @@ def number(value: float) -> str:
 
 
 def piece_lines(
-    several: Sequence[Piece],
-    frames: Sequence[Frames],
-    frame: str,
-    along: Sequence[Along],
-    name: str,
-    label: str,
-    standing: dict[str, str],
-) -> tuple[list[str], list[Quantity], str]:
-    """Lines of code that make the piece; what is free; the function it needs. standing: corners that lines before gave,
-    and the frames they are of.
-    """
+    several: Sequence[Piece], frames: Sequence[Frames], frame: str, along: Sequence[Along], name: str, label: str
+) -> tuple[list[str], list[Quantity]]:
+    """Lines of code that make the piece with the kit's anchors, and what is free in them."""
     kind = _commonest([piece.kind for piece in several])
-    mirrored = several[0].mirrored
-    sizes: list[str] = []
-    lines: list[str] = []
-    asked: list[Quantity] = []
-    shared: dict[int, int] = equal_sizes(several, along)
-    for axis in range(3):
-        if ends := along[axis].ends:
-            told = ", ".join(f"{_bounds(name)}[{side}, {axis}]" for name, side in ends)
-            lines.append(f"{_CORNERS[0][axis]}, {_CORNERS[1][axis]} = {told}")
-    for axis in range(3):
-        start, end = _CORNERS[0][axis], _CORNERS[1][axis]
-        if along[axis].size == "full":
-            sizes.append(f"{end} - {start}")
-        elif axis in shared:
-            sizes.append(sizes[shared[axis]])
-        else:
-            word = "thickness" if several[len(several) // 2].thin[axis] else _SIDES[axis]
-            if any(quantity.name == f"{name}_{word}" for quantity in asked):
-                word = _SIDES[axis]
-            asked.append(Quantity(f"{name}_{word}", tuple(along[axis].ratios)))
-            lines.append(f"{word} = {name}_{word} * ({end} - {start})")
-            sizes.append(word)
-    centres = []
-    for axis in range(3):
-        start, end, size = _CORNERS[0][axis], _CORNERS[1][axis], sizes[axis]
-        half = f"{size} / 2"
-        boxes = [each[frame] for each in frames]
-        centred = along[axis].ends is None and all(
-            abs(box[:, axis].sum()) < 2e-3 * np.ptp(box[:, axis]) + 1e-9 for box in boxes
-        )
-        middle = "0" if centred else f"({start} + {end}) / 2"
-        place = along[axis].place
-        if place == "free":
-            word = f"{name}_{_PLACES[axis]}"
-            asked.append(Quantity(word, tuple(along[axis].offsets)))
-            is_mirrored = axis != 1 and mirrored[0 if axis == 0 else 1]
-            from_middle = f"{word} * ({end} - {start}) / 2" if centred else f"{middle} + {word} * ({end} - {start}) / 2"
-            centres.append(from_middle if is_mirrored else f"{start} + {word} * ({end} - {start})")
-        else:
-            where = {"middle": middle, "low": f"{start} + {half}", "high": f"{end} - {half}"}
-            where |= {"on": f"{end} + {half}", "under": f"{start} - {half}"}
-            centres.append(where[place])
-    size, at = f"({', '.join(sizes)})", f"({', '.join(centres)})"
-    gap, count = "", ""
-    if kind.startswith("slats"):
-        asked.append(Quantity(f"{name}_count", tuple(float(piece.count) for piece in several), whole=True))
-        count = asked[-1].name
-        # The gaps shrink with the count, so that any number of slats fits.
-        part = float(np.median([piece.gap * piece.count for piece in several]))
-        across = sizes["xyz".index(kind[-1])]
-        gap = f"{number(part)} * {_operand(across)} / {count}"
+    sizes, lines, asked = _sizes(several, along, name)
+    places, outside = _places(frame, along, several[0].mirrored, name, asked)
+    count = f"{name}_count"
     if kind in SPOKES:
         asked.append(Quantity(f"{name}_breadth", tuple(piece.breadth for piece in several)))
-        asked.append(Quantity(f"{name}_count", tuple(float(piece.count) for piece in several), whole=True))
-        lines += _spokes(kind, sizes, [quantity.name for quantity in asked[-2:]], _turn(several))
-    middles = [f"({low} + {high}) / 2" for low, high in zip(*_CORNERS, strict=True)]
+    if kind in SPOKES or kind.startswith("slats"):
+        asked.append(Quantity(count, tuple(float(piece.count) for piece in several), whole=True))
+    filling = _FILLED.get(kind, "")
+    if kind.startswith("slats"):
+        filling = _slats(several, kind[-1], sizes["xyz".index(kind[-1])], count)
     copies = ""
-    for letter, on, axis in (("x", mirrored[0], 0), ("z", mirrored[1], 2)):
-        if on:
-            even = all(abs(each[frame][:, axis].sum()) < 2e-3 * np.ptp(each[frame][:, axis]) + 1e-9 for each in frames)
-            about = f"({middles[0]}, 0, 0)" if axis == 0 else f"(0, 0, {middles[2]})"
-            copies += f'.mirror("{letter}", keep=True{"" if even else f", about={about}"})'
-    line = f"{name} = {_call(kind, size, sizes, at, gap, count)}{copies}.label({quoted(label)})"
-    if len(line) > LINE:
-        lines.append(f"at = {at}")
-        line = f"{name} = {_call(kind, size, sizes, 'at', gap, count)}{copies}.label({quoted(label)})"
-    lines.append(line)
-    used = "box" if kind in SPOKES else _call(kind, size, sizes, at, gap, count).split("(")[0]
-    # Corners that nothing needs, or that are there already, are not asked of the frame.
-    anew = [axis for axis in range(3) if along[axis].ends]
-    text = "\n".join(lines)
-    wanted = []
-    for axis in range(3):
-        words = [words[axis] for words in _CORNERS]
-        needed = [word for word in words if re.search(rf"\b{word}\b", text)]
-        if axis not in anew and any(standing.get(word) != frame for word in needed):
-            wanted.append(axis)
-        standing.update({word: NEW if axis in anew else frame for word in words if axis in anew or axis in wanted})
-    pairs = [(axis, ", ".join(words[axis] for words in _CORNERS)) for axis in wanted]
-    first = [f"{words} = {_bounds(frame)}[:, {axis}]" for axis, words in pairs]
-    if len(wanted) == 3:
-        corners = ", ".join(f"({', '.join(words)})" for words in _CORNERS)
-        first = [f"{corners} = {_bounds(frame)}"]
-    return [*first, *lines], asked, used
+    for letter, axis, mirrored in zip("xz", (0, 2), several[0].mirrored, strict=True):
+        if mirrored:
+            ends = [each[frame][:, axis] for each in frames]
+            even = all(abs(end.sum()) < _CENTRED * np.ptp(end) + 1e-9 for end in ends)
+            copies += f'.mirror("{letter}", keep=True{"" if even else ", about=room.at"})'
+    part = _part(frame)
+    if any("room." in text for text in (*sizes, *lines, filling, copies)):
+        reach = {letter: places.pop(letter) for letter in [*places] if along["xyz".index(letter)].ends}
+        lines, part = [f"room = {_space(part, [], reach, [])}", *lines], "room"
+    space = _space(part, sizes, places, outside)
+    made, ending = f"{space}.fill({filling})", f"{copies}.label({quoted(label)})"
+    if kind in SPOKES:
+        lines += [f"space = {space}", *_spokes(kind, sizes[0] == sizes[2] != "None", name, _turn(several))]
+        made = "around.translate(space.at)"
+    elif len(f"{name} = {made}{ending}") > LINE:
+        lines, made = [*lines, f"space = {space}"], f"space.fill({filling})"
+    return [*lines, f"{name} = {made}{ending}"], asked
+
+
+def kit_functions(lines: Sequence[str]) -> tuple[str, ...]:
+    """The functions of the kit that lines of code need."""
+    return tuple(word for word in _KIT if any(re.search(rf"(?<![\w\".]){word}(?=[(,)])", line) for line in lines))
 
 
 def noun(several: Sequence[Piece]) -> str:
@@ -153,21 +96,98 @@ def noun(several: Sequence[Piece]) -> str:
     return replace(several[len(several) // 2], kind=_commonest([piece.kind for piece in several])).noun
 
 
-def _spokes(kind: Kind, sizes: Sequence[str], names: Sequence[str], turn: str) -> list[str]:
-    """Lines that make bars around the origin."""
-    (width, height, depth), (share, count) = (_operand(size) for size in sizes), names
+def _sizes(several: Sequence[Piece], along: Sequence[Along], name: str) -> tuple[list[str], list[str], list[Quantity]]:
+    """The size along each axis, lines that come before, and what is free in both."""
+    shared = equal_sizes(several, along)
+    sizes: list[str] = []
+    lines: list[str] = []
+    asked: list[Quantity] = []
+    for axis, here in enumerate(along):
+        if here.size == "full":
+            sizes.append("None")
+        elif axis in shared:
+            sizes.append(sizes[shared[axis]])
+        else:
+            word = "thickness" if several[len(several) // 2].thin[axis] else _SIZES[axis]
+            if any(quantity.name == f"{name}_{word}" for quantity in asked):
+                word = _SIZES[axis]
+            asked.append(Quantity(f"{name}_{word}", tuple(here.ratios)))
+            sizes.append(f"{name}_{word} * room.{_SIZES[axis]}")
+            if axis in shared.values():
+                lines.append(f"{word} = {sizes[axis]}")
+                sizes[axis] = word
+    return sizes, lines, asked
+
+
+def _places(
+    frame: str, along: Sequence[Along], mirrored: tuple[bool, bool], name: str, asked: list[Quantity]
+) -> tuple[dict[str, str], list[Side]]:
+    """Where it lies along axes on which it is not in the middle, and the sides that it is outside of."""
+    places: dict[str, str] = {}
+    outside: list[Side] = []
+    for axis, here in enumerate(along):
+        letter, (near, far) = "xyz"[axis], SIDES[2 * axis : 2 * axis + 2]
+        if here.ends:
+            if {end for end, _ in here.ends} != {frame}:
+                places[letter] = _reach(axis, *here.ends)
+        elif here.place == "free":
+            asked.append(Quantity(f"{name}_{_PLACES[axis]}", tuple(here.offsets)))
+            both = axis != 1 and mirrored[axis // 2]
+            places[letter] = f"(1 + {asked[-1].name}) / 2" if both else asked[-1].name
+        elif here.place in ("on", "under"):
+            outside.append(far if here.place == "on" else near)
+        elif here.place != "middle":
+            places[letter] = quoted(far if here.place == "high" else near)
+    return places, outside
+
+
+def _space(part: str, sizes: Sequence[str], places: Mapping[str, str], outside: Sequence[Side]) -> str:
+    """The anchor at a part."""
+    size = [f"({', '.join(sizes)})"] if any(size != "None" for size in sizes) else []
+    places = dict(places)
+    for side in outside[1:]:
+        places["xyz"[SIDES.index(side) // 2]] = f'on({", ".join([part, *size])}, side="{side}")'
+    arguments = ", ".join([part, *size, *(f"{letter}={places[letter]}" for letter in "xyz" if letter in places)])
+    if not outside:
+        return f"within({arguments})"
+    if outside[0] in ("top", "bottom"):
+        return f"{'on' if outside[0] == 'top' else 'under'}({arguments})"
+    return f'on({arguments}, side="{outside[0]}")'
+
+
+def _reach(axis: int, start: tuple[str, int], end: tuple[str, int]) -> str:
+    """Where it reaches from and to: a part that it is as long as, or what it is between."""
+    if start[0] == end[0]:
+        return _part(start[0])
+    spelled = []
+    for (frame, side), towards in ((start, 1), (end, 0)):
+        facing = side == towards and frame != WHOLE
+        spelled.append(_part(frame) if facing else f'face({_part(frame)}, "{SIDES[2 * axis + side]}")')
+    return f"between({', '.join(spelled)})"
+
+
+def _slats(several: Sequence[Piece], axis: str, size: str, count: str) -> str:
+    """What fills the space with slats: their gaps shrink with the count, so that any number of slats fits."""
+    part = number(float(np.median([piece.gap * piece.count for piece in several])))
+    across = f"room.{_SIZES['xyz'.index(axis)]}" if size == "None" else size
+    return f'slats, count={count}, gap={part} * {across} / {count}, axis="{axis}"'
+
+
+def _spokes(kind: Kind, is_round: bool, name: str, turn: str) -> list[str]:
+    """Lines that make bars around the origin, as wide as the space."""
     inner, outer = SLOPE
-    high = height if kind == "spokes" else f"{inner} * {height}"
+    high = "space.height" if kind == "spokes" else f"{inner} * space.height"
     lines = [
-        f"breadth = {share} * {width}",
-        f"spoke = box((({width} + breadth) / 2, {high}, breadth), (({width} - breadth) / 4, 0, 0))",
+        f"breadth = {name}_breadth * space.width",
+        f"spoke = box(((space.width + breadth) / 2, {high}, breadth), ((space.width - breadth) / 4, 0, 0))",
     ]
     if kind == "sloping spokes":  # lower at its outer end
-        ends = f"(0, {(1 - inner) / 2:g} * {height}, 0)", f"(0, {(inner * outer - 1) / 2:g} * {height}, 0)"
-        lines.append(f'spoke = spoke.taper(({outer}, 1), "x").path({", ".join(ends)}, axis="x")')
-    stretch = "" if width == depth else f".scale((1, 1, {depth} / {width}))"
-    turned = "" if turn == "0" else f".rotate({turn.format(count=count)})"
-    return [*lines, f"around = spoke{turned}.polar_array({count}){stretch}"]
+        rise, fall = (1 - inner) / 2, (inner * outer - 1) / 2
+        ends = f"(0, {rise:g} * space.height, 0), (0, {fall:g} * space.height, 0)"
+        lines.append(f'spoke = spoke.taper(({outer}, 1), "x").path({ends}, axis="x")')
+    stretch = "" if is_round else ".scale((1, 1, space.depth / space.width))"
+    turned = "" if turn == "0" else f".rotate({turn.format(count=f'{name}_count')})"
+    return [*lines, f"around = spoke{turned}.polar_array({name}_count){stretch}"]
 
 
 def _turn(several: Sequence[Piece]) -> str:
@@ -176,23 +196,10 @@ def _turn(several: Sequence[Piece]) -> str:
     return max(dict.fromkeys(words), key=words.count)
 
 
-def _operand(size: str) -> str:
-    return size if size.isidentifier() else f"({size})"
-
-
-def _call(kind: Kind, size: str, sizes: Sequence[str], at: str, gap: str, count: str) -> str:
-    if kind in SPOKES:
-        return f"around.translate({at})"
-    if kind.startswith("slats"):
-        return f'slats({size}, {count}, {gap}, "{kind[-1]}", {at})'
-    turned = f"({sizes[1]}, {sizes[0]}, {sizes[2]})" if kind == "rod x" else f"({sizes[0]}, {sizes[2]}, {sizes[1]})"
-    return _CALLS[kind].format(size=size, at=at, turned=turned)
-
-
-def _bounds(frame: str) -> str:
+def _part(frame: str) -> str:
     if frame.startswith(NEW):
-        return f"{frame.removeprefix(NEW)}.bounds"
-    return "shape.bounds" if frame == WHOLE else f"shape.part({quoted(frame)}).bounds"
+        return frame.removeprefix(NEW)
+    return "shape" if frame == WHOLE else f"shape.part({quoted(frame)})"
 
 
 def _commonest(kinds: Sequence[Kind]) -> Kind:

@@ -15,7 +15,7 @@ import numpy as np
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import INNER, NEW, WHOLE, Frames, best_frame, bounds_as_told, inside_of
 from shapewright.feedback.writing.edit import NewParameter, NewRule
-from shapewright.feedback.writing.spelling import LINE, Quantity, noun, piece_lines, quoted
+from shapewright.feedback.writing.spelling import LINE, Quantity, kit_functions, noun, piece_lines, quoted
 
 
 @dataclass(frozen=True)
@@ -66,20 +66,19 @@ def addition(
     stem = free("_and_".join(nouns)[:40].strip("_"))
     body: list[str] = []
     quantities: list[Quantity] = []
-    imports: list[str] = []
     names: list[str] = []
     known = [dict(each) for each in frames]
-    standing: dict[str, str] = {}
+    room = ""
     for several, word, label in zip(pieces, nouns, labels, strict=True):
         frame, along = best_frame(several, known)
-        lines, asked, used = piece_lines(several, known, frame, along, free(word), label or word, standing)
+        lines, asked = piece_lines(several, known, frame, along, free(word), label or word)
         for each, piece in zip(known, several, strict=True):
             outer = bounds_as_told(piece, frame, along, each)
             each[f"{NEW}{free(word)}"] = outer
             each[f"{INNER}{NEW}{free(word)}"] = inside_of(piece, outer)
-        body += lines
+        body += lines[1:] if lines[0] == room else lines
+        room = next((line for line in lines if line.startswith("room = ")), room)
         quantities += asked
-        imports.append(used)
         names.append(free(word))
     rest = f"shape.without({', '.join(map(quoted, removed))})" if removed else "shape"
     if inset is not None:
@@ -95,7 +94,7 @@ def addition(
         head = f"def {name}(\n    {arguments}\n):"
     text = "\n    ".join([head, f'"""{note}"""', *body])
     call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
-    return Rule(name, stem, text, call, tuple(quantities), tuple(dict.fromkeys(imports)))
+    return Rule(name, stem, text, call, tuple(quantities), kit_functions(body))
 
 
 def drawing_in(
