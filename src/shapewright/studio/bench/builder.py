@@ -33,7 +33,10 @@ MOST_TRIANGLES = 400_000
 def try_build(
     procedure: Procedure, values: Parameters, limits: Limits, compiling: Callable[[], object] = lambda: None
 ) -> Built:
-    """Build the shape at these values, carried over into the procedure's space. compiling: see ``time_limit``."""
+    """Build the shape at these values, carried over into the procedure's space.
+
+    compiling: see ``time_limit``.
+    """
     try:
         with time_limit(limits.seconds, compiling):
             parameters = procedure.space.carry(values)

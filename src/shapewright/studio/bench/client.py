@@ -51,7 +51,7 @@ class BenchProcess:
         """Keep a bench going until cancelled. Raises BenchError when it dies again and again as soon as it starts."""
         hasty = 0
         while hasty < _OFTEN:
-            begun = time.monotonic()
+            started = time.monotonic()
             frames: asyncio.Queue[Frame | None] = asyncio.Queue()
             child = Child(_PROGRAM, on_this_loop(frames.put_nowait), Answer)
             try:
@@ -64,7 +64,7 @@ class BenchProcess:
                 if not reply.done():
                     reply.set_exception(BenchError("the bench had to start again; ask once more"))
             self._replies.clear()
-            hasty = hasty + 1 if time.monotonic() - begun < _SOON else 0
+            hasty = hasty + 1 if time.monotonic() - started < _SOON else 0
             self._lost()
         raise BenchError(f"the bench process ended {_OFTEN} times as soon as it had started; the terminal says more")
 

@@ -41,7 +41,10 @@ class Shelf(Generic[Item]):
 
 
 class Gallery:
-    """The references of a listing. cache: a folder for their pictures, None for none."""
+    """The references of a listing.
+
+    cache: a folder for their pictures, None for none.
+    """
 
     def __init__(self, listed: Listing, cache: Path | None) -> None:
         self.listed = listed

@@ -46,7 +46,12 @@ class First(BenchMessage, frozen=True):
 
 
 class Load(BenchMessage, frozen=True):
-    """Take a version of the procedure up. load: its number. seconds, memory_mb: limits of one shape."""
+    """Take a version of the procedure up.
+
+    load: its number.
+    seconds: what building one shape may take.
+    memory_mb: memory that it may take.
+    """
 
     load: int
     procedure: str
@@ -62,14 +67,20 @@ class SweepOrder(BenchMessage, frozen=True):
 
 
 class Live(BenchMessage, frozen=True):
-    """Answer a page's evaluation. client: the page."""
+    """Answer a page's evaluation.
+
+    client: the page.
+    """
 
     client: int
     evaluate: Evaluate
 
 
 class Fetch(BenchMessage, frozen=True):
-    """Tell one thing about a reference. request: number that the reply carries."""
+    """One thing about a reference is asked for.
+
+    request: number that the reply carries.
+    """
 
     request: int
     slug: Slug
@@ -81,7 +92,7 @@ class Fetch(BenchMessage, frozen=True):
 
 
 class End(BenchMessage, frozen=True):
-    """The server has gone."""
+    """The server has ended."""
 
 
 Request: TypeAlias = References | Pictures | First | Load | SweepOrder | Live | Fetch | End
@@ -114,7 +125,10 @@ class Loaded(BenchMessage, frozen=True):
 
 
 class Unusable(BenchMessage, frozen=True):
-    """The procedure cannot be used. load: null where it was usable at first."""
+    """The procedure cannot be used.
+
+    load: null where it was usable at first.
+    """
 
     load: int | None
     problem: Problem
@@ -140,7 +154,10 @@ class Measured(BenchMessage, frozen=True):
 
 
 class SweepEnded(BenchMessage, frozen=True):
-    """given_up: too many shapes exceeded the time limit."""
+    """A sweep is at its end.
+
+    given_up: too many shapes exceeded the time limit.
+    """
 
     sweep: int
     given_up: bool
@@ -157,7 +174,10 @@ class Answered(BenchMessage, frozen=True):
 
 
 class Reply(BenchMessage, frozen=True):
-    """To a Fetch: a message as plain values, or None with a payload. error: there is no such thing."""
+    """To a Fetch: a message as plain values, or None with a payload.
+
+    error: there is no such thing.
+    """
 
     request: int
     message: Any = None
@@ -165,5 +185,5 @@ class Reply(BenchMessage, frozen=True):
 
 
 News: TypeAlias = Drawn | Unreadable | Loaded | Unusable | Swept | Measured | SweepEnded
-"""What the session is told."""
+"""What is for the session."""
 Answer: TypeAlias = Ready | Answered | Reply | News

@@ -68,7 +68,10 @@ def outcome(built: Built) -> dict[str, Any]:
 
 
 def drawing_message(drawing: Drawing, reference: Drawing | None, **head: Any) -> DrawingMessage:
-    """A drawing's outline, and where a reference is given, what only one of the two covers. head: other fields."""
+    """A drawing's outline, and where a reference is given, what only one of the two covers.
+
+    head: other fields.
+    """
     missing = excess = None
     if reference is not None:
         missing = path(reference.geometry.difference(drawing.geometry))
@@ -84,7 +87,10 @@ def path(geometry: Any) -> str:
 
 
 def mesh_message(mesh: Mesh, **head: Any) -> bytes:
-    """The binary message ``mesh``; its vertices are those of ``mesh`` as they are. head: other fields."""
+    """The binary message ``mesh``; its vertices are those of ``mesh`` as they are.
+
+    head: other fields.
+    """
     buffers: dict[str, Any] = {
         "positions": mesh.vertices.astype(np.float32).ravel(),
         "indices": mesh.faces.astype(np.uint32).ravel(),
@@ -96,7 +102,10 @@ def mesh_message(mesh: Mesh, **head: Any) -> bytes:
 
 
 def residual_message(residual: Residual, **head: Any) -> bytes:
-    """The binary message ``residuals``. head: other fields."""
+    """The binary message ``residuals``.
+
+    head: other fields.
+    """
     head |= {"vertices": len(residual.vertices), "triangles": len(residual.faces)}
     buffers = {
         "positions": residual.vertices.astype(np.float32).ravel(),

@@ -43,10 +43,10 @@ class NearSurface:
 
     def distances(self, points: Floats) -> Floats:
         """(N,) for points (N, 3): positive outside, negative inside where the surface is closed, else not negative."""
-        found = np.empty(len(points))
+        distances = np.empty(len(points))
         points = np.ascontiguousarray(points, dtype=np.float64)
-        _measure(points, self._corners, self._normals, self._nodes, self._boxes, self.closed, found)
-        return found
+        _measure(points, self._corners, self._normals, self._nodes, self._boxes, self.closed, distances)
+        return distances
 
 
 @njit(nogil=True, cache=True)
@@ -90,7 +90,7 @@ def _tree(corners: Any) -> Any:
 
 
 @njit(nogil=True, cache=True)
-def _measure(points: Any, corners: Any, normals: Any, nodes: Any, boxes: Any, signed: bool, found: Any) -> None:
+def _measure(points: Any, corners: Any, normals: Any, nodes: Any, boxes: Any, signed: bool, distances: Any) -> None:
     stack = np.empty(128, dtype=np.int64)
     for n in range(len(points)):
         p = points[n]
@@ -113,7 +113,7 @@ def _measure(points: Any, corners: Any, normals: Any, nodes: Any, boxes: Any, si
                 if squared < least - _ALIKE * _ALIKE or (squared <= least + _ALIKE * _ALIKE and abs(height) > squarest):
                     squarest, side = abs(height), height
                 least = min(least, squared)
-        found[n] = -np.sqrt(least) if signed and side < 0.0 else np.sqrt(least)
+        distances[n] = -np.sqrt(least) if signed and side < 0.0 else np.sqrt(least)
 
 
 @njit(nogil=True, cache=True)

@@ -29,13 +29,16 @@ _STEP = 0.1
 class Broken(Exception):
     """The procedure's file cannot be used; ``problem`` says why."""
 
-    def __init__(self, found: Problem) -> None:
-        super().__init__(found.message)
-        self.problem = found
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(problem.message)
+        self.problem = problem
 
 
 class Workshop:
-    """Builds shapes of one procedure. interrupt: set by another thread, it ends a build that is under way."""
+    """Builds shapes of one procedure.
+
+    interrupt: set by another thread, it ends a build that is under way.
+    """
 
     def __init__(self) -> None:
         self.interrupt = threading.Event()

@@ -23,7 +23,10 @@ class Event(Struct, frozen=True, kw_only=True, tag=True):
 
 
 class Advanced(Event, frozen=True):
-    """A stage went on. losses: of an epoch that ended."""
+    """A stage went on.
+
+    losses: of an epoch that ended.
+    """
 
     stage: str
     done: int
@@ -33,7 +36,10 @@ class Advanced(Event, frozen=True):
 
 
 class Guessed(Event, frozen=True):
-    """Parameters are known before the end of a fit. answer: by name of the reference."""
+    """Parameters are known before the end of a fit.
+
+    answer: by name of the reference.
+    """
 
     kind: AnswerKind
     answer: dict[str, Values]
@@ -68,7 +74,7 @@ class Reporter:
         self.send(Advanced(stage=name, done=done, total=total))
 
     def progress(self, progress: Progress) -> None:
-        """Report what a listener is told."""
+        """Report an event of a fit or an explanation."""
         if progress.answer is not None and progress.answer_kind is not None:
             self.send(Guessed(kind=progress.answer_kind, answer=dict(progress.answer)))
             return
@@ -84,7 +90,10 @@ class Reporter:
         self.send(Done(result=JobResult(**result)))
 
     def fail(self, error: Exception, kind: ProblemKind, root: str) -> NoReturn:
-        """End the program with the problem that an error is. root: folder that files are named relative to."""
+        """End the program with the problem that an error is.
+
+        root: folder that files are named relative to.
+        """
         self.send(Failed(problem=of_error(error, kind, Path(root))))
         sys.exit(1)
 
@@ -92,8 +101,8 @@ class Reporter:
 def begin() -> tuple[dict[str, Any], Reporter]:
     """The request of the program that runs, and where it reports.
 
-    When the stream of requests closes the studio has gone, and so does this program, with all that it started. It gives
-    way to live evaluation.
+    When the stream of requests closes the studio has ended; this program then ends too, with all that it started.
+    Live evaluation goes before it.
     """
     if hasattr(os, "nice"):
         os.nice(5)

@@ -10,7 +10,10 @@ from shapewright.studio.project.listing import Origin
 
 
 def explain(run: Path, origin: Origin, reporter: Reporter) -> None:
-    """Explain a run and put that into its folder. origin: of the references."""
+    """Explain a run and put that into its folder.
+
+    origin: of the references.
+    """
     from shapewright.feedback.explanation import explain as explain_iteration
     from shapewright.feedback.record import record_of, write
     from shapewright.runs.folder import previous_run
@@ -20,8 +23,8 @@ def explain(run: Path, origin: Origin, reporter: Reporter) -> None:
 
     iteration = Iteration.load(run)
     procedure = procedure_of(run, iteration)
-    found = explain_iteration(iteration, procedure, collection(origin), reporter.progress, cache_folder())
-    write(run, record_of(found), previous_run(run, set(iteration.names)))
+    explanation = explain_iteration(iteration, procedure, collection(origin), reporter.progress, cache_folder())
+    write(run, record_of(explanation), previous_run(run, set(iteration.names)))
 
 
 def main() -> None:

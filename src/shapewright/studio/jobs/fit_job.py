@@ -62,7 +62,7 @@ def predicted(iteration: Any) -> dict[str, Any]:
         return {}
     prediction = predictor.infer([result.reference for result in results])
     values = prediction.decode()
-    found: dict[str, Any] = {}
+    by_name: dict[str, Any] = {}
     for i, result in enumerate(results):
         spread, likelihood = {}, {}
         for j, parameter in enumerate(predictor.space):
@@ -72,8 +72,8 @@ def predicted(iteration: Any) -> dict[str, Any]:
                 likelihood[parameter.name] = {_key(v): round(float(p), 4) for v, p in zip(levels, shares, strict=True)}
             else:
                 spread[parameter.name] = float(prediction.spreads[j][i]) * (parameter.high - parameter.low)
-        found[result.name] = {"predicted": values[i], "spread": spread, "likelihood": likelihood}
-    return found
+        by_name[result.name] = {"predicted": values[i], "spread": spread, "likelihood": likelihood}
+    return by_name
 
 
 def _key(value: Any) -> str:

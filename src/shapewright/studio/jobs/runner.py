@@ -17,7 +17,7 @@ from shapewright.studio.wire.problems import Problem
 
 @dataclass(eq=False)
 class Runner:
-    """One kind of work, of which at most one runs at a time; see ``wire.jobs.Job`` for what is not told here.
+    """One kind of work, of which at most one runs at a time; see ``wire.jobs.Job`` for the other fields.
 
     root: folder that problems name files relative to.
     changed: called after every change.
@@ -80,7 +80,7 @@ class Runner:
         failed: Problem | None = None
         try:
             frames: asyncio.Queue[Frame | None] = asyncio.Queue()
-            # Requests stay open: when they close, the program knows that the studio has gone.
+            # Requests stay open: when they close, the program knows that the studio has ended.
             self._child = child = Child(module, on_this_loop(frames.put_nowait), AnyEvent)
             if self.state == "cancelling":
                 child.end()

@@ -1,4 +1,4 @@
-"""The project's references by name: what there is to read, found without reading it, and where pictures are kept."""
+"""The project's references by name: what there is to read, listed without reading it, and where pictures are kept."""
 
 from __future__ import annotations
 
@@ -21,8 +21,14 @@ _OUTSIDE = "a link that leads out of the project folder; start the studio with -
 
 @dataclass(frozen=True)
 class Origin:
-    """Where the references are. up, front: axes of the files. confine: the folder that no file may lie outside of,
-    links followed; None for a source that was named on the command line."""
+    """Where the references are.
+
+    source: a folder, file or pattern.
+    up: axis of the files.
+    front: axis of the files; None for the usual one.
+    confine: the folder that no file may lie outside of, links followed; None for a source that was named on the command
+        line.
+    """
 
     source: str
     up: str = "y"
@@ -46,12 +52,12 @@ class Listing:
 
 def listing(origin: Origin) -> Listing:
     """The references of a source, unread. Raises CollectionError as ``find`` does."""
-    found = find([origin.source], origin.up, origin.front)
+    sources = find([origin.source], origin.up, origin.front)
     home = Path(origin.confine).resolve() if origin.confine else None
-    skipped = {each.path: _OUTSIDE for each in found if home and not each.path.resolve().is_relative_to(home)}
-    inside = [each for each in found if each.path not in skipped]
-    slugs = file_names(tuple(each.name for each in inside))
-    return Listing({slugs[each.name]: each for each in inside}, skipped)
+    skipped = {one.path: _OUTSIDE for one in sources if home and not one.path.resolve().is_relative_to(home)}
+    inside = [source for source in sources if source.path not in skipped]
+    slugs = file_names(tuple(source.name for source in inside))
+    return Listing({slugs[source.name]: source for source in inside}, skipped)
 
 
 def kept_picture(cache: Path, source: Source) -> Path | None:

@@ -9,7 +9,10 @@ from shapewright.studio.project.workspace import Missing
 
 
 class Pictures:
-    """PNGs in memory, and files that are read when they are asked for. homes: folders that these must lie in."""
+    """PNGs in memory, and files that are read when they are asked for.
+
+    homes: folders that these must lie in.
+    """
 
     def __init__(self, *homes: Path) -> None:
         self._homes = [home.resolve() for home in homes]

@@ -30,7 +30,11 @@ class Missing(KeyError):
 
 
 class Conflict(Exception):
-    """The procedure was changed by someone else meanwhile. text, digest: what is there now."""
+    """The procedure was changed by someone else meanwhile.
+
+    text: what is there now.
+    digest: of that text.
+    """
 
     def __init__(self, text: str, digest: str) -> None:
         super().__init__("the file has changed since; look at it before you write over it")
@@ -39,7 +43,12 @@ class Conflict(Exception):
 
 @dataclass(frozen=True)
 class Project:
-    """folder: absolute, links resolved. procedure: the author's file, inside it. origin: where the references are."""
+    """A project on disk.
+
+    folder: absolute, links resolved.
+    procedure: the author's file, inside it.
+    origin: where the references are.
+    """
 
     folder: Path
     procedure: Path
@@ -80,10 +89,10 @@ class Project:
 
     def run(self, name: str) -> Path:
         """The folder of a run. Raises Missing when there is none of this name."""
-        found = next((run for run in self.runs if run.name == name), None)
-        if found is None:
+        folder = next((run for run in self.runs if run.name == name), None)
+        if folder is None:
             raise Missing(f"there is no run {name!r}")
-        return found
+        return folder
 
     def run_file(self, name: str, path: str) -> Path:
         """A file of a run. Raises Missing when it is not there, or lies outside the run's folder, links followed."""
@@ -111,11 +120,11 @@ class Project:
         expected: digest of the text that the edit began from; None to write whatever is there. What is replaced is kept
         in the project's scratch folder. Raises Conflict, ProjectError.
         """
-        before, found = self.read_source()
-        if expected is not None and found != expected:
-            raise Conflict(before, found)
+        before, there = self.read_source()
+        if expected is not None and there != expected:
+            raise Conflict(before, there)
         if text != before:
-            _write(self.scratch() / f"procedure-{time.strftime('%Y%m%d-%H%M%S')}-{found}.py", before)
+            _write(self.scratch() / f"procedure-{time.strftime('%Y%m%d-%H%M%S')}-{there}.py", before)
             ending = "\r\n" if b"\r\n" in self.procedure.read_bytes() else "\n"
             _write(self.procedure, text.replace("\r\n", "\n").replace("\n", ending))
         return source_digest(text)
@@ -144,11 +153,11 @@ class Project:
         """Changes whenever the procedure does, or a Python file beside it that it names, or that such a file names."""
         texts = {path.stem: _read_bytes(path) for path in self.procedure.parent.glob("*.py")}
         used: set[str] = set()
-        found = {self.procedure.stem}
-        while found:
-            used |= found
-            words = {word for stem in found for word in re.findall(rb"\w+", texts.get(stem, b""))}
-            found = {stem for stem in texts if stem.encode() in words} - used
+        news = {self.procedure.stem}
+        while news:
+            used |= news
+            words = {word for stem in news for word in re.findall(rb"\w+", texts.get(stem, b""))}
+            news = {stem for stem in texts if stem.encode() in words} - used
         named = repr([(stem, texts.get(stem)) for stem in sorted(used)])
         return hashlib.blake2b(named.encode(), digest_size=8).hexdigest()
 

@@ -36,7 +36,10 @@ then load this page again. Otherwise install shapewright again with the network 
 
 
 def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
-    """The application. page: folder of the built page."""
+    """The application.
+
+    page: folder of the built page.
+    """
     # What the system's registry says of .js may be wrong on Windows; browsers then refuse the page's modules.
     mimetypes.add_type("text/javascript", ".js")
 

@@ -40,7 +40,12 @@ Headers = Mapping[str, str]
 
 @dataclass(frozen=True)
 class Access:
-    """host, port: what the server listens on. token: of this run."""
+    """Who may come in.
+
+    host: address that the server listens on.
+    port: port that it listens on.
+    token: of this run.
+    """
 
     host: str
     port: int
@@ -92,7 +97,7 @@ class Access:
 
 
 class Guard:
-    """Middleware that lets in who may come in, limits what is sent, and tells the browser what a page may do."""
+    """Middleware that lets in who may come in, limits what is sent, and says to the browser what a page may do."""
 
     def __init__(self, app: ASGIApp, access: Access) -> None:
         self.app, self.access = app, access

@@ -35,7 +35,11 @@ class BenchLink:
         heard: Callable[[News, bytes], object],
         changed: Callable[[], object],
     ) -> None:
-        """heard: called with every message of the bench for the session. changed: called whenever ``state`` does."""
+        """Link a session and its bench.
+
+        heard: called with every message of the bench for the session.
+        changed: called whenever ``state`` does.
+        """
         self._project, self._authored, self._display, self._pages = project, authored, display, pages
         self.process = BenchProcess(heard, self._answered, self._started, self._lost)
         self.state: BenchState = "starting"
@@ -59,16 +63,16 @@ class BenchLink:
             self.evaluate(page, request)
 
     def forget(self, page: int) -> None:
-        """A page has gone."""
+        """Drop what waits for a page that is closed."""
         self._waiting.pop(page, None)
 
     def put_first(self, slugs: list[Slug]) -> None:
-        """The author looks at these references."""
+        """Say which references the author looks at."""
         self._first = slugs
         self.process.ask(First(slugs=slugs))
 
     def list_references(self, settings: Settings) -> None:
-        """The references are others, or are measured otherwise."""
+        """Say where the references are, and how they are measured."""
         cache = str(self._display.cache) if self._display.cache else None
         origin, align, seed = self._project.origin, settings.align, settings.seed
         self.process.ask(References(origin=origin, cache=cache, align=align, seed=seed))
@@ -76,7 +80,7 @@ class BenchLink:
         self.process.ask(Pictures(slugs=self._display.missing))
 
     def load(self, settings: Settings) -> None:
-        """The procedure is another."""
+        """Have the procedure read again."""
         self.process.ask(
             Load(
                 load=self._authored.load,

@@ -25,7 +25,7 @@ Record = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class ReferenceState:
-    """One reference, and what is known of it; see ``wire.board.Tile`` for what is not told here.
+    """One reference, and what is known of it; see ``wire.board.Tile`` for the other fields.
 
     iou: of the silhouettes.
     chamfer: distance of the surfaces.

@@ -37,7 +37,10 @@ class Display:
     def __init__(
         self, project: Project, pages: Pages, cache: Path | None, on_problems: Callable[[list[Problem]], object]
     ) -> None:
-        """on_problems: called with the problems of all shapes whenever these change."""
+        """Show nothing yet.
+
+        on_problems: called with the problems of all shapes whenever these change.
+        """
         self._on_problems = on_problems
         self.project, self.pages, self.cache = project, pages, cache
         self.pictures = Pictures(project.folder, *([cache] if cache else []))
@@ -53,7 +56,7 @@ class Display:
         self._unreadable: dict[str, tuple[str, str]] = {}
 
     def relist(self) -> None:
-        """Look for references anew, to be shown by ``show``. Raises CollectionError when there are none."""
+        """Look for references again, to be shown by ``show``. Raises CollectionError when there are none."""
         self._unreadable.clear()
         self.listed = Listing({}, {})
         self.listed = listing(self.project.origin)
@@ -72,7 +75,7 @@ class Display:
         return None
 
     def show(self, run: Path | None, metric: Metric) -> None:
-        """Put up a run, or bare references, and tell the pages."""
+        """Show a run, or references alone, to the pages."""
         self.stop_sweep()
         self.run = run
         self.board = self.laid_out(run, metric)

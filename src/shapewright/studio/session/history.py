@@ -1,4 +1,4 @@
-"""The runs of a project: what each found, and what changed between two of them."""
+"""The runs of a project, and what changed between two of them."""
 
 from __future__ import annotations
 

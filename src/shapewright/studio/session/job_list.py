@@ -36,7 +36,10 @@ class JobList:
     def __init__(
         self, project: Project, display: Display, bench: BenchLink, pages: Pages, ended: Callable[[Runner], object]
     ) -> None:
-        """ended: called with every job that has ended."""
+        """Prepare all runners.
+
+        ended: called with every job that has ended.
+        """
         self._project, self._display, self._bench, self._pages, self._ended = project, display, bench, pages, ended
         self._runners = {kind: Runner(kind, project.folder, self._changed, self._guessed) for kind in KINDS}
         self._tasks: set[asyncio.Task[Any]] = set()
@@ -46,7 +49,10 @@ class JobList:
         return {kind: runner.job() for kind, runner in self._runners.items()}
 
     async def fit(self, settings: Settings, fresh: bool) -> None:
-        """Start a fit; one that runs is ended first. fresh: learn anew. Raises Refused."""
+        """Start a fit; one that runs is ended first. Raises Refused.
+
+        fresh: learn anew.
+        """
         if not self._display.listed.sources:
             raise Refused(f"there are no references in {self._project.origin.source}")
         await self._runners["fit"].cancel()

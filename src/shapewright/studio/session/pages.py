@@ -45,7 +45,7 @@ class Pages:
         self._pages.pop(page.number, None)
 
     def send(self, number: int, message: Message | bytes) -> None:
-        """To one page; to nobody when it has gone."""
+        """To one page; to nobody when it is closed."""
         if number in self._pages:
             self._pages[number].send(message if isinstance(message, bytes) else encode(message).decode())
 

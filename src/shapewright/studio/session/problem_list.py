@@ -13,7 +13,10 @@ Origin: TypeAlias = Literal["bench", "project", "procedure", "references", "fit"
 
 
 class ProblemList:
-    """The problems of a project. pages: are sent every change."""
+    """The problems of a project.
+
+    pages: are sent every change.
+    """
 
     def __init__(self, pages: Pages) -> None:
         self._pages = pages

@@ -25,7 +25,10 @@ _OF_SUGGESTIONS = {"title": "", "text": "", "snippet": None, "source": None, "ga
 
 
 def reference(session: Session, slug: Slug, about: About | None) -> Reference:
-    """One reference in full. about: what the bench knows of it, if it answers."""
+    """One reference in full.
+
+    about: what the bench knows of it, if it answers.
+    """
     state = session.display.board.references[slug]
     predicted = _read(session.display.run, PREDICTIONS).get(state.name, {})
     names = {parameter.name for parameter in session.authored.parameters}
@@ -108,7 +111,7 @@ def _read(run: Path | None, name: str) -> dict[str, Any]:
     if run is None:
         return {}
     try:
-        found: Any = read_json(run / name)
+        content: Any = read_json(run / name)
     except (OSError, ValueError):
         return {}
-    return found if isinstance(found, dict) else {}
+    return content if isinstance(content, dict) else {}

@@ -49,8 +49,8 @@ def of_error(error: Exception, kind: ProblemKind, root: Path) -> Problem:
     """Of an error that was raised; the author's file is named relative to ``root``."""
     if not isinstance(error, ProcedureError):
         return Problem(kind, str(error))
-    found = _placed(kind, error.message, error.place, root)
-    return replace(found, text=None) if error.summary else found
+    problem = _placed(kind, error.message, error.place, root)
+    return replace(problem, text=None) if error.summary else problem
 
 
 def of_failure(failure: Failure, root: Path, parameters: Parameters | None = None) -> Problem:

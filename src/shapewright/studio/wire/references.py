@@ -29,7 +29,10 @@ class Units(Struct, frozen=True, kw_only=True):
 
 
 class About(Struct, frozen=True, kw_only=True):
-    """What only somebody who has read its file knows of a reference. triangles: null of a drawing."""
+    """What only somebody who has read its file knows of a reference.
+
+    triangles: null of a drawing.
+    """
 
     triangles: int | None
     notes: list[str]

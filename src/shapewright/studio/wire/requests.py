@@ -54,7 +54,10 @@ PageMessage: TypeAlias = Annotated[Evaluate | Visible, Meta(title="PageMessage")
 
 
 class SourceEdit(Order, frozen=True):
-    """A new text of the procedure. digest: of the text that the edit began from; null to write over any."""
+    """A new text of the procedure.
+
+    digest: of the text that the edit began from; null to write over any.
+    """
 
     text: str
     digest: str | None = None
@@ -67,7 +70,11 @@ class FitOrder(Order, frozen=True):
 
 
 class ExportOrder(Order, frozen=True):
-    """What to pack. count: of random samples. seed: of random samples."""
+    """What to pack.
+
+    count: of random samples.
+    seed: of random samples.
+    """
 
     what: Annotated[list[Part], Meta(min_length=1)]
     format: ExportFormat = "glb"
@@ -82,20 +89,29 @@ class CancelOrder(Order, frozen=True):
 
 
 class RestoreOrder(Order, frozen=True):
-    """Put a run's procedure back. digest: as in SourceEdit."""
+    """Put a run's procedure back.
+
+    digest: as in SourceEdit.
+    """
 
     digest: str | None = None
 
 
 class ApplyOrder(Order, frozen=True):
-    """Write a suggestion's procedure: beside the procedure, or in its place. digest: as in SourceEdit."""
+    """Write a suggestion's procedure: beside the procedure, or in its place.
+
+    digest: as in SourceEdit.
+    """
 
     to: Literal["copy", "procedure"]
     digest: str | None = None
 
 
 class Source(Struct, frozen=True, kw_only=True):
-    """A text of the procedure. digest: of the text."""
+    """A text of the procedure.
+
+    digest: of the text.
+    """
 
     path: str
     text: str
@@ -103,13 +119,20 @@ class Source(Struct, frozen=True, kw_only=True):
 
 
 class Written(Struct, frozen=True, kw_only=True):
-    """The procedure was written. digest: of the new text."""
+    """The procedure was written.
+
+    digest: of the new text.
+    """
 
     digest: str
 
 
 class Replaced(Struct, frozen=True, kw_only=True):
-    """The procedure was written. digest: of the new text. undo: the text that was there."""
+    """The procedure was written.
+
+    digest: of the new text.
+    undo: the text that was there.
+    """
 
     digest: str
     undo: str

@@ -98,7 +98,10 @@ class DistanceMessage(Message, frozen=True, kw_only=True, tag="distance"):
 
 
 class FailedMessage(Message, frozen=True, kw_only=True, tag="failed"):
-    """There is no replica at these parameters. active: null where that is not known."""
+    """There is no replica at these parameters.
+
+    active: null where that is not known.
+    """
 
     id: int
     slug: Slug | None

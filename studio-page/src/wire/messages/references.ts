@@ -14,8 +14,9 @@ export interface Units {
   size: number[];
 }
 
-/** What only somebody who has read its file knows of a reference. triangles: null of a drawing. */
+/** What only somebody who has read its file knows of a reference. */
 export interface About {
+  /** null of a drawing. */
   triangles: number | null;
   notes: string[];
   units: Units;

@@ -28,9 +28,10 @@ export interface Visible {
 
 export type PageMessage = Evaluate | Visible;
 
-/** A new text of the procedure. digest: of the text that the edit began from; null to write over any. */
+/** A new text of the procedure. */
 export interface SourceEdit {
   text: string;
+  /** of the text that the edit began from; null to write over any. */
   digest?: string | null;
 }
 
@@ -40,11 +41,13 @@ export interface FitOrder {
   fresh?: boolean;
 }
 
-/** What to pack. count: of random samples. seed: of random samples. */
+/** What to pack. */
 export interface ExportOrder {
   what: Part[];
   format?: ExportFormat;
+  /** of random samples. */
   count?: number;
+  /** of random samples. */
   seed?: number;
 }
 
@@ -53,32 +56,38 @@ export interface CancelOrder {
   kind: JobKind;
 }
 
-/** Put a run's procedure back. digest: as in SourceEdit. */
+/** Put a run's procedure back. */
 export interface RestoreOrder {
+  /** as in SourceEdit. */
   digest?: string | null;
 }
 
-/** Write a suggestion's procedure: beside the procedure, or in its place. digest: as in SourceEdit. */
+/** Write a suggestion's procedure: beside the procedure, or in its place. */
 export interface ApplyOrder {
   to: "copy" | "procedure";
+  /** as in SourceEdit. */
   digest?: string | null;
 }
 
-/** A text of the procedure. digest: of the text. */
+/** A text of the procedure. */
 export interface Source {
   path: string;
   text: string;
+  /** of the text. */
   digest: string;
 }
 
-/** The procedure was written. digest: of the new text. */
+/** The procedure was written. */
 export interface Written {
+  /** of the new text. */
   digest: string;
 }
 
-/** The procedure was written. digest: of the new text. undo: the text that was there. */
+/** The procedure was written. */
 export interface Replaced {
+  /** of the new text. */
   digest: string;
+  /** the text that was there. */
   undo: string;
 }
 

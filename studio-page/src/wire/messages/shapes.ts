@@ -78,11 +78,12 @@ export interface DistanceMessage {
   compatible: boolean;
 }
 
-/** There is no replica at these parameters. active: null where that is not known. */
+/** There is no replica at these parameters. */
 export interface FailedMessage {
   type: "failed";
   id: number;
   slug: Slug | null;
   problem: Problem;
+  /** null where that is not known. */
   active: string[] | null;
 }
