@@ -25,7 +25,7 @@ import numpy as np
 import shapewright as sw
 from shapewright.building import Workers
 from shapewright.feedback.case import Replica
-from shapewright.feedback.causes.replicas import NEAREST, measured, nearest_replicas
+from shapewright.feedback.causes.better_replicas import NEAREST, measured, nearest_replicas
 from shapewright.feedback.explanation import explain
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import Solid, box, cylinder, sphere

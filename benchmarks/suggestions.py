@@ -30,7 +30,7 @@ import numpy as np
 import shapewright as sw
 from shapewright.building import Build, Workers
 from shapewright.feedback.case import Case, Replica
-from shapewright.feedback.causes.replicas import covering_replicas, measured, nearest_replicas
+from shapewright.feedback.causes.better_replicas import covering_replicas, measured, nearest_replicas
 from shapewright.feedback.explanation import explain
 from shapewright.feedback.suggestions import suggestions
 from shapewright.feedback.surfaces.placement import Overlay

@@ -24,7 +24,7 @@ def call(*arguments):
 @pytest.fixture(scope="module", autouse=True)
 def _brief():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("shapewright.feedback.causes.replicas.EVALUATIONS", 300)
+        patch.setattr("shapewright.feedback.causes.better_replicas.EVALUATIONS", 300)
         yield
 
 

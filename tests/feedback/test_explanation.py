@@ -8,7 +8,7 @@ import pytest
 import shapewright as sw
 from shapewright.building import Workers
 from shapewright.feedback.case import Case
-from shapewright.feedback.causes.replicas import measured, with_choices_kept
+from shapewright.feedback.causes.better_replicas import measured, with_choices_kept
 from shapewright.feedback.explanation import explain
 from shapewright.feedback.record import record_of
 from shapewright.feedback.suggestions import Suggestion
@@ -40,7 +40,7 @@ def table(
 @pytest.fixture(scope="module", autouse=True)
 def _brief_searches():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("shapewright.feedback.causes.replicas.EVALUATIONS", 1500)
+        patch.setattr("shapewright.feedback.causes.better_replicas.EVALUATIONS", 1500)
         yield
 
 

@@ -7,16 +7,16 @@ from dataclasses import replace
 
 from shapewright.building import Workers
 from shapewright.feedback.case import Case, Replica, updated
-from shapewright.feedback.causes.diagnosis import diagnosed, or_leaning
-from shapewright.feedback.causes.leaning import leaning
-from shapewright.feedback.causes.longer_ranges import replicas_outside
-from shapewright.feedback.causes.outliers import isolation, outliers
-from shapewright.feedback.causes.replicas import (
+from shapewright.feedback.causes.better_replicas import (
     covering_replicas,
     nearest_replicas,
     with_choices_kept,
     with_fields,
 )
+from shapewright.feedback.causes.diagnosis import diagnosed, or_leaning
+from shapewright.feedback.causes.leaning import leaning
+from shapewright.feedback.causes.longer_ranges import replicas_outside
+from shapewright.feedback.causes.outliers import isolation, outliers
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.judging.judge import Judge

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from shapewright.building import Workers
 from shapewright.feedback.case import Replica
-from shapewright.feedback.causes.replicas import ENOUGH, affordable, as_near_as, measured, nearer
+from shapewright.feedback.causes.better_replicas import ENOUGH, affordable, as_near_as, measured, nearer
 from shapewright.judging.judge import Judge
 from shapewright.parameters import End, Integer, ParameterSpace, Prediction
 from shapewright.search.budgets import Budget
