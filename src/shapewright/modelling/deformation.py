@@ -20,7 +20,13 @@ from shapewright.shapes import Floats
 
 
 class Domain(NamedTuple):
-    """A box in space; ``facing`` has -1 for each axis along which it faces (names its ends) against the axis."""
+    """A box in space.
+
+    Attributes:
+        low: its corner with the least coordinates.
+        high: its corner with the greatest.
+        facing: 1 along each axis, or -1 where it faces, and names its ends, against the axis.
+    """
 
     low: Point
     high: Point
@@ -55,7 +61,14 @@ class Domain(NamedTuple):
 
 
 class Along(NamedTuple):
-    """An axis of a domain: t is 0 at ``start`` and 1 at ``start + length``, which may lie below it."""
+    """An axis of a domain, on which t runs from 0 to 1.
+
+    Attributes:
+        axis: its index.
+        start: the coordinate at t = 0.
+        length: from there to t = 1; negative where the axis runs down.
+        centre: of the domain.
+    """
 
     axis: int
     start: float
@@ -117,7 +130,12 @@ class Twist:
 class Bend:
     """The middle of the box bent to an arc of its own length, straight beyond the ends.
 
-    towards: the axis that it bends to; sign: 1 to its high end. fixed: the t of the section that stays where it is.
+    Attributes:
+        along: the axis that is bent.
+        degrees: by which its far end is turned.
+        towards: the index of the axis that it bends to.
+        sign: 1 to the high end of that axis, -1 to the low end.
+        fixed: the t of the section that stays in place.
     """
 
     along: Along
@@ -146,8 +164,12 @@ class Bend:
 class Bulge:
     """A side pushed out in the middle, by ``height`` at most, and everything between it and the other side with it.
 
-    along: from the side that stays to the one that is pushed. low, high: the part of it that moves, across the axis.
-    round: the part is the ellipse in that rectangle, not the rectangle.
+    Attributes:
+        along: from the side that stays to the one that is pushed.
+        height: how far its middle moves.
+        low: the least coordinates, across the axis, of the part that moves.
+        high: the greatest.
+        round: whether the part is the ellipse in that rectangle, not the rectangle.
     """
 
     along: Along

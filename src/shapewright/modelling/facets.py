@@ -19,9 +19,9 @@ from shapewright.modelling.deformation import Bend, Bulge, Deformation, Free, Sc
 from shapewright.shapes import Floats, Ints
 from shapewright.shapes.slivers import SLIVER
 
-_SAMPLES = 25
+_SAMPLES = 25  # between two breaks of a deformation, to see how much it curves there
 _STEPS = np.linspace(0.0, 1.0, _SAMPLES)
-_SNAP = 0.25
+_SNAP = 0.25  # of the distance to the next cut: how far a cut may move to a level that points have already
 _NINE = np.array([(0.0, u, v) for u in (0.0, 0.5, 1.0) for v in (0.0, 0.5, 1.0)])
 
 

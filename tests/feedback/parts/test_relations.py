@@ -1,7 +1,7 @@
 import numpy as np
 
 from shapewright.feedback.parts.pieces import Piece
-from shapewright.feedback.parts.relations import INNER, NEW, WHOLE, best_frame, bounds_as_told, equal_sizes, inside_of
+from shapewright.feedback.parts.relations import INNER, NEW, WHOLE, best_frame, equal_sizes, inside_of, made_bounds
 
 HEIGHTS = (0.5, 0.7, 0.9)
 FRAMES = [
@@ -63,7 +63,7 @@ def test_the_box_that_a_rule_makes():
     post = pieces(lambda h: [(0.2, 0.02, -0.02), (0.24, h - 0.06, 0.02)], mirrored=(True, False))
     plain = [{name: each[name] for name in (WHOLE, "top")} for each in FRAMES]
     frame, along = best_frame(post, plain)
-    made = bounds_as_told(post[0], frame, along, plain[0])
+    made = made_bounds(post[0], frame, along, plain[0])
     np.testing.assert_allclose(made, [(-0.24, 0, -0.02), (0.24, HEIGHTS[0] - 0.05, 0.02)], atol=1e-9)
 
 

@@ -135,14 +135,14 @@ def _ends(
     return (chosen[0], chosen[1]) if chosen[0] != chosen[1] else None
 
 
-def bounds_as_told(piece: Piece, frame: str, along: Sequence[Along], frames: Frames) -> Floats:
-    """The box (2, 3) of a piece and its copies that a rule makes which tells its place in this way."""
+def made_bounds(piece: Piece, frame: str, along: Sequence[Along], frames: Frames) -> Floats:
+    """The box (2, 3) of a piece and its copies that a rule makes which says its place in this way."""
     low, high = piece.low.copy(), piece.high.copy()
-    for axis, told in enumerate(along):
+    for axis, here in enumerate(along):
         start, end = frames[frame][:, axis]
-        if told.ends:
-            start, end = (frames[name][side, axis] for name, side in told.ends)
-        half = (end - start if told.size == "full" else high[axis] - low[axis]) / 2.0
+        if here.ends:
+            start, end = (frames[name][side, axis] for name, side in here.ends)
+        half = (end - start if here.size == "full" else high[axis] - low[axis]) / 2.0
         middle = {
             "middle": (start + end) / 2.0,
             "low": start + half,
@@ -150,11 +150,11 @@ def bounds_as_told(piece: Piece, frame: str, along: Sequence[Along], frames: Fra
             "on": end + half,
             "under": start - half,
             "free": (low[axis] + high[axis]) / 2.0,
-        }[told.place]
+        }[here.place]
         low[axis], high[axis] = middle - half, middle + half
     x, z = frames[frame].mean(axis=0)[[0, 2]]  # copies are mirrored about the frame
-    told_so = replace(piece, low=low, high=high, middle=(float(x), float(z))).copies
-    return np.stack([np.min([copy.low for copy in told_so], axis=0), np.max([copy.high for copy in told_so], axis=0)])
+    copies = replace(piece, low=low, high=high, middle=(float(x), float(z))).copies
+    return np.stack([np.min([copy.low for copy in copies], axis=0), np.max([copy.high for copy in copies], axis=0)])
 
 
 def inside_of(piece: Piece, outer: Floats) -> Floats:

@@ -13,7 +13,7 @@ from shapewright.feedback.parts.relations import NEW, WHOLE, Along, Frames, equa
 from shapewright.feedback.writing.edit import NewParameter
 from shapewright.modelling.arguments import SIDES, Side
 
-LINE = 116  # characters, indented by four
+LINE = 116  # characters: 120, the style of this project (pyproject.toml), less an indent of four
 _SIZES = ("width", "height", "depth")
 _PLACES = ("x", "level", "z")
 _FILLED: dict[Kind, str] = {
@@ -31,7 +31,13 @@ _CENTRED = 2e-3  # of its extent: how far the middle of a frame may be from the 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A scalar or integer to add: its name and the value that each misfit asks for."""
+    """A scalar or integer to add.
+
+    Attributes:
+        name: of the new parameter.
+        values: what each misfit needs.
+        whole: whether it is an integer.
+    """
 
     name: str
     values: tuple[float, ...]

@@ -1,7 +1,7 @@
 """From pieces that several misfits share to a rule in the author's own terms: a function, parameters with Ranges.
 
-Sizes and places are told relative to the bounding box of a part, or of the whole shape: that one which leaves the
-fewest quantities free. Those that are free become parameters.
+A rule says sizes and places relative to the bounding box of a part, or of the whole shape: the one that leaves the
+fewest quantities free. Free quantities become parameters.
 """
 
 from __future__ import annotations
@@ -13,16 +13,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from shapewright.feedback.parts.pieces import Piece
-from shapewright.feedback.parts.relations import INNER, NEW, WHOLE, Frames, best_frame, bounds_as_told, inside_of
+from shapewright.feedback.parts.relations import INNER, NEW, WHOLE, Frames, best_frame, inside_of, made_bounds
 from shapewright.feedback.writing.edit import NewParameter, NewRule
 from shapewright.feedback.writing.spelling import LINE, Quantity, kit_functions, noun, piece_lines, quoted
 
 
 @dataclass(frozen=True)
 class Rule:
-    """A change in words. function: a template of its text, with {name}. quantities: what is to be a parameter.
+    """A change as code.
 
-    flag: the binary that switches it on, None when the parameters' defaults leave the shape as it is.
+    Attributes:
+        name: of its function, or of its flag where it needs none.
+        flag: the binary that switches it on; None when the parameters' defaults leave the shape unchanged.
+        function: its text; empty where the call needs none.
+        call: an expression for the changed shape, in which ``{shape}`` stands for the shape before.
+        quantities: what becomes a parameter.
+        imports: the functions of the kit that it needs.
     """
 
     name: str
@@ -56,9 +62,14 @@ def addition(
 ) -> Rule:
     """A rule that puts pieces in, perhaps in place of parts.
 
-    pieces: for each piece of the rule, how each misfit wants it. frames: of each misfit. removed: labels of the parts
-    that go. inset: how far each misfit wants the rest drawn in, None where it stays. labels: of the pieces, "" to be
-    named. free: makes a name of the file's that is not taken. note: for the docstring.
+    Args:
+        pieces: for each piece of the rule, how each misfit needs it.
+        frames: bounding boxes of each misfit's replica and its parts.
+        removed: labels of the parts that go.
+        inset: the factor by which each misfit needs all else drawn in; None where it stays.
+        labels: of the pieces; "" for one that gets a name.
+        free: makes a name that is not taken in the file.
+        note: for the docstring.
     """
     order = sorted(range(len(pieces)), key=lambda i: not any(pieces[i][0].mirrored))  # others reach from side to side
     pieces, labels = [pieces[i] for i in order], [labels[i] for i in order]
@@ -73,7 +84,7 @@ def addition(
         frame, along = best_frame(several, known)
         lines, asked = piece_lines(several, known, frame, along, free(word), label or word)
         for each, piece in zip(known, several, strict=True):
-            outer = bounds_as_told(piece, frame, along, each)
+            outer = made_bounds(piece, frame, along, each)
             each[f"{NEW}{free(word)}"] = outer
             each[f"{INNER}{NEW}{free(word)}"] = inside_of(piece, outer)
         body += lines[1:] if lines[0] == room else lines

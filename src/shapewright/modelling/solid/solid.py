@@ -27,10 +27,11 @@ Split: TypeAlias = "Callable[[], tuple[Solid, ...]]"
 class Solid:
     """A closed volume, possibly empty, whose faces know the label of the part that they came from.
 
-    manifold: the geometry; wrap a manifold3d.Manifold of your own as ``Solid(manifold)``.
-    labels: the label of each original of manifold3d (the ids in ``run_original_id``) that has one.
-    split: gives the solids that it was united from, None where it is of one piece.
-    rules: the rule of a split grammar that made an original, or where several did those with a face id.
+    Attributes:
+        manifold: the geometry; wrap a manifold3d.Manifold of your own as ``Solid(manifold)``.
+        labels: the label of each original of manifold3d (the ids in ``run_original_id``) that has one.
+        split: gives the solids that it was united from; None where it is of one piece.
+        rules: the rule of a split grammar that made an original, or where several did those with a face id.
     """
 
     manifold: Manifold

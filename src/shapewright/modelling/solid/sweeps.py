@@ -14,7 +14,7 @@ from shapewright.modelling.solid.sections import Polygon, Section, section
 from shapewright.modelling.solid.solid import Solid, solid_of
 from shapewright.shapes import Floats, Ints
 
-_SAME_ANGLE = 1e-6
+_SAME_ANGLE = 1e-6  # radians: corners of two plans that are nearer, seen from the middle, are joined as one
 
 
 def extrude(
