@@ -118,7 +118,7 @@ class TestNormalisation:
         vertices[:3] = WEDGE[:3]
         reference = Collection.of({"a": (vertices, [[0, 1, 2], [3, 4, 5]])}, up=axes[0], front=axes[1])["a"]
         np.testing.assert_allclose(reference.to_original(reference.shape.vertices), vertices, rtol=0, atol=1e-9)
-        turned = reference.orientation.apply(vertices)
+        turned = vertices @ reference.orientation.matrix.T
         np.testing.assert_array_equal(reference.transform.apply(turned), reference.shape.vertices)
         np.testing.assert_allclose(reference.shape.bounds.mean(axis=0), 0, atol=1e-12)
         assert reference.shape.extent.max() == pytest.approx(1.0)

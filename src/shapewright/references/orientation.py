@@ -57,10 +57,6 @@ class Orientation:
             front = ("-" if left.min() < 0 else "") + "xyz"[int(np.abs(left).argmax())]
         return Orientation(self.up, front)
 
-    def apply(self, points: ArrayLike) -> Floats:
-        """Points (..., 3) of the file, turned Y up with the front towards +Z."""
-        return np.asarray(np.asarray(points, dtype=np.float64) @ self.matrix.T)
-
     def invert(self, points: ArrayLike) -> Floats:
         """Points (..., 3) back in the axes of the file."""
         return np.asarray(np.asarray(points, dtype=np.float64) @ self.matrix)

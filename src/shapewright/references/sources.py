@@ -10,7 +10,7 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
@@ -42,16 +42,6 @@ class Source:
     orientation: Orientation
 
 
-@dataclass(frozen=True)
-class _Entry:
-    """A file, with the cells of its row where a manifest lists it."""
-
-    path: Path
-    name: str = ""
-    up: str = ""
-    front: str = ""
-
-
 def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> list[Source]:
     """The files of a collection, in natural order of their names (chair2 before chair10).
 
@@ -65,16 +55,18 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> 
     default = Orientation.of(up, front)
     if not origins:
         raise CollectionError("the list of references is empty; give it folders, patterns or files")
+    sources: list[Source] = []
     try:
-        found = [file for origin in origins for file in _expand(Path(origin).expanduser(), alone=len(origins) == 1)]
+        for path in (Path(origin).expanduser() for origin in origins):
+            if path.suffix.lower() == MANIFEST and path.is_file():
+                sources += _in_manifest(path, up, front)
+            else:
+                sources += [Source(_stem(file), file, default) for file in _expand(path, alone=len(origins) == 1)]
     except OSError as error:
         raise CollectionError(f"cannot look into {error.filename}: {error.strerror}") from error
-    names = _unique([file.name or _stem(file.path) for file in found], [file.path for file in found])
-    sources = [
-        Source(name, file.path, _oriented(file, up, front) if file.up or file.front else default)
-        for name, file in zip(names, found, strict=True)
-    ]
-    return sorted(sources, key=lambda source: natural_key(source.name))
+    names = _unique([source.name for source in sources], [source.path for source in sources])
+    named = (replace(source, name=name) for source, name in zip(sources, names, strict=True))
+    return sorted(named, key=lambda source: natural_key(source.name))
 
 
 def natural_key(name: str) -> tuple[list[int | str], str]:
@@ -83,19 +75,17 @@ def natural_key(name: str) -> tuple[list[int | str], str]:
     return [int(piece) if i % 2 else piece for i, piece in enumerate(pieces)], name
 
 
-def _expand(path: Path, alone: bool) -> list[_Entry]:
+def _expand(path: Path, alone: bool) -> list[Path]:
     """The files that one origin stands for; a missing or strange file in a list is left for its reader to report."""
     if path.is_dir():
-        return [_Entry(file) for file in _in_folder(path)]
-    if path.suffix.lower() == MANIFEST and path.is_file():
-        return _in_manifest(path)
+        return _in_folder(path)
     if not path.exists() and glob.has_magic(str(path)):
-        return [_Entry(file) for file in _in_pattern(path)]
+        return _in_pattern(path)
     if alone and not path.exists():
         raise CollectionError(f"no such file or folder: {path}{_alternatives(path)}")
     if alone and not _is_shape(path):
         raise CollectionError(f"{path} is not a kind of file that is read; {_LOOKED_FOR} and {MANIFEST} are")
-    return [_Entry(path)]
+    return [path]
 
 
 def _in_folder(folder: Path) -> list[Path]:
@@ -138,32 +128,29 @@ def _in_pattern(pattern: Path) -> list[Path]:
     return shapes
 
 
-def _in_manifest(manifest: Path) -> list[_Entry]:
+def _in_manifest(manifest: Path, up: str, front: str | None) -> list[Source]:
     text = manifest.read_text(encoding="utf-8-sig", errors="replace")
     header, _, _ = text.partition("\n")
     rows = csv.reader(io.StringIO(text, newline=""), delimiter=max(",;\t", key=header.count))
     columns = [cell.strip().lower() for cell in next(rows, [])]
     if "path" not in columns:
         raise CollectionError(f"{manifest} has no column 'path'; its first line has {', '.join(columns) or 'none'}")
-    found: list[_Entry] = []
+    sources: list[Source] = []
     for row in rows:
         cells = {column: cell.strip() for column, cell in zip(columns, row, strict=False)}
         if not any(cells.values()):
             continue
         if not cells.get("path"):
             raise CollectionError(f"{manifest}, line {rows.line_num}: no path")
-        file = _Entry(manifest.parent / cells["path"], *(cells.get(column, "") for column in ("name", "up", "front")))
-        found.append(file)
-    if not found:
+        path = manifest.parent / cells["path"]
+        try:
+            orientation = Orientation.of(cells.get("up") or up, cells.get("front") or front)
+        except CollectionError as error:
+            raise CollectionError(f"{path}, as the manifest lists it: {error}") from error
+        sources.append(Source(cells.get("name") or _stem(path), path, orientation))
+    if not sources:
         raise CollectionError(f"{manifest} lists no files; give each a line with its path")
-    return found
-
-
-def _oriented(file: _Entry, up: str, front: str | None) -> Orientation:
-    try:
-        return Orientation.of(file.up or up, file.front or front)
-    except CollectionError as error:
-        raise CollectionError(f"{file.path}, as the manifest lists it: {error}") from error
+    return sources
 
 
 def _stem(path: Path) -> str:

@@ -6,8 +6,6 @@ polygons as fans.
 
 from __future__ import annotations
 
-import numpy as np
-
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.polygons import Polygons
 
@@ -34,8 +32,4 @@ def read_obj(data: bytes) -> Polygons:
                 counts.append(len(fields) - 1)
     except (ValueError, IndexError) as error:
         raise UnreadableError(f"broken: cannot understand the line {line[:60].decode(errors='replace')!r}") from error
-    return Polygons(
-        np.array(vertices, dtype=np.float64).reshape(-1, 3),
-        np.array(corners, dtype=np.int64),
-        np.array(counts, dtype=np.int64),
-    )
+    return Polygons.of(vertices, corners, counts)

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import re
 
-import numpy as np
-
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.polygons import Polygons
 
@@ -36,8 +34,4 @@ def read_off(data: bytes) -> Polygons:
         if isinstance(error, UnreadableError):
             raise
         raise UnreadableError(f"broken: {error}") from error
-    return Polygons(
-        np.array(vertices, dtype=np.float64).reshape(-1, 3),
-        np.array(corners, dtype=np.int64),
-        np.array(counts, dtype=np.int64),
-    )
+    return Polygons.of(vertices, corners, counts)

@@ -108,14 +108,14 @@ def _table(element: _Element, body: bytes, start: int, order: str) -> tuple[Mapp
     """The columns of an element that begins at ``start`` of the body, and where the next one begins."""
     lengths = _first_lengths(element, body, start, order)
     fields = list[tuple[str, str] | tuple[str, str, tuple[int]]]()
-    for p, length in zip(element.properties, lengths, strict=True):
+    pairs = list(zip(element.properties, lengths, strict=True))
+    for p, length in pairs:
         fields += [(f"{p.name} count", order + p.length)] if p.length else []
         fields += [(p.name, order + p.type, (length,))]
     row = np.dtype(fields)
     end = start + row.itemsize * element.count
     if end <= len(body):
         rows = np.frombuffer(body, row, element.count, start)
-        pairs = list(zip(element.properties, lengths, strict=True))
         if all((rows[f"{p.name} count"] == length).all() for p, length in pairs if p.length):
             columns = {p.name: _Column(rows[p.name].reshape(-1), np.full(len(rows), n)) for p, n in pairs}
             return columns, end

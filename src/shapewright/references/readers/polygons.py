@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +27,12 @@ class Polygons:
     vertices: Floats
     corners: Ints
     counts: Ints
+
+    @classmethod
+    def of(cls, vertices: Sequence[Sequence[float]], corners: Sequence[int], counts: Sequence[int]) -> Polygons:
+        """Polygons from lists."""
+        points = np.array(vertices, dtype=np.float64).reshape(-1, 3)
+        return cls(points, np.array(corners, dtype=np.int64), np.array(counts, dtype=np.int64))
 
 
 def triangulate(polygons: Polygons) -> Ints:
