@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import hashlib
-import importlib.util
 import inspect
 import linecache
 import sys
@@ -62,7 +61,7 @@ class Procedure:
         functools.update_wrapper(self, function)
         self.function = function
         self.name = function.__name__
-        self.space = _space(function)
+        self.space = _space(function, self.place)
         self.path: Path | None = None
 
     def __call__(self, *args: Any, **kwargs: Any) -> Shape:
@@ -89,7 +88,8 @@ class Procedure:
     @property
     def place(self) -> Place:
         """Where the function begins."""
-        return _place(self.function)
+        code = self.function.__code__
+        return Place(code.co_filename, code.co_firstlineno, function=self.function.__name__)
 
     @property
     def digest(self) -> str:
@@ -141,26 +141,22 @@ def load_procedure(path: str | Path) -> Procedure:
 
 
 def _split(path: str | Path) -> tuple[Path, str | None]:
-    text = str(path)
-    file, colon, name = text.rpartition(":")
-    if colon and file.endswith(".py"):
-        text = file
-    resolved = Path(text).expanduser().resolve()
+    file, _, name = str(path).rpartition(":")
+    named = file.endswith(".py")
+    resolved = Path(file if named else path).expanduser().resolve()
     if resolved.is_dir():
         raise ProcedureError(f"{resolved}: this is a folder; name the Python file of the procedure")
     if not resolved.is_file():
         raise ProcedureError(f"{resolved}: no such file")
-    return resolved, name if colon and file.endswith(".py") else None
+    return resolved, name if named else None
 
 
 def _execute(path: Path) -> ModuleType:
-    spec = importlib.util.spec_from_loader(f"shapewright_author_{path.stem}", loader=None, origin=str(path))
-    assert spec is not None
-    module = importlib.util.module_from_spec(spec)
+    module = ModuleType(f"shapewright_author_{path.stem}")
     module.__file__ = str(path)
     folder = str(path.parent)
     before = set(sys.modules)
-    sys.modules[spec.name] = module
+    sys.modules[module.__name__] = module
     sys.path.insert(0, folder)
     linecache.checkcache(str(path))
     try:
@@ -190,13 +186,7 @@ def _forget_siblings(folder: Path, before: set[str]) -> None:
             del sys.modules[name]
 
 
-def _place(function: Callable[..., Any]) -> Place:
-    code = function.__code__
-    return Place(code.co_filename, code.co_firstlineno, function=function.__name__)
-
-
-def _space(function: Callable[..., Any]) -> ParameterSpace:
-    place = _place(function)
+def _space(function: Callable[..., Any], place: Place) -> ParameterSpace:
     try:
         hints = typing.get_type_hints(function, include_extras=True)
     except (NameError, TypeError) as error:
@@ -238,8 +228,5 @@ def _parameter(item: inspect.Parameter, hint: Any) -> Parameter:
         steps = limits.steps if isinstance(limits.steps, int | None) else tuple(float(step) for step in limits.steps)
         middle = (limits.low + limits.high) / 2
         return Scalar(name, float(limits.low), float(limits.high), float(default) if given else middle, steps, when)
-    raise ValueError(f"parameter {name!r}: the annotation {_spelling(kind)} is not supported; use {_KINDS}")
-
-
-def _spelling(kind: Any) -> str:
-    return kind.__name__ if isinstance(kind, type) else str(kind)
+    spelled = kind.__name__ if isinstance(kind, type) else str(kind)
+    raise ValueError(f"parameter {name!r}: the annotation {spelled} is not supported; use {_KINDS}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import Any, cast
 
 import numpy as np
@@ -53,8 +54,8 @@ def _convert(value: Any) -> Shape:
     if callable(getattr(value, "to_polygons", None)):
         import shapely
 
-        rings = [shapely.Polygon(ring) for ring in value.to_polygons()]
-        return _drawing(_even_odd(rings))
+        rings: list[Any] = [shapely.Polygon(), *(shapely.Polygon(ring) for ring in value.to_polygons())]
+        return _drawing(reduce(shapely.symmetric_difference, rings))
     if callable(getattr(value, "to_mesh", None)) and hasattr(value, "geometry"):
         return _convert(value.to_mesh())
     if hasattr(value, "vertices") and hasattr(value, "faces") and not callable(value.vertices):
@@ -68,7 +69,8 @@ def _convert(value: Any) -> Shape:
         inner = getattr(value, wrapper, None)
         if inner is not None:
             return _convert(inner() if callable(inner) and not hasattr(inner, "tessellate") else inner)
-    raise TypeError(f"it returned {_describe(value)}; return {_ACCEPTED}")
+    kind = f"{type(value).__module__}.{type(value).__qualname__}".removeprefix("builtins.")
+    raise TypeError(f"it returned {kind}; return {_ACCEPTED}")
 
 
 def _is_table(item: Any) -> bool:
@@ -95,15 +97,6 @@ def _drawing(geometry: Any) -> Drawing:
     return Drawing(cast("shapely.Polygon | shapely.MultiPolygon", shapely.union_all(parts)))
 
 
-def _even_odd(rings: list[Any]) -> Any:
-    import shapely
-
-    area = shapely.Polygon()
-    for ring in rings:
-        area = area.symmetric_difference(ring)
-    return area
-
-
 def _join(shapes: list[Shape]) -> Shape:
     meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
     drawings = [shape for shape in shapes if isinstance(shape, Drawing)]
@@ -128,7 +121,3 @@ def _coordinates(vertex: Any) -> tuple[float, float, float]:
         return (vertex.X, vertex.Y, vertex.Z)
     x, y, z = vertex
     return (float(x), float(y), float(z))
-
-
-def _describe(value: Any) -> str:
-    return f"{type(value).__module__}.{type(value).__qualname__}".removeprefix("builtins.")

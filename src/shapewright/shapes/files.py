@@ -56,7 +56,8 @@ def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
         used, corners = np.unique(faces, return_inverse=True)
         positions = mesh.vertices[used].astype(np.float32)
         arrays = (positions, corners.ravel().astype(np.uint16 if len(used) <= 0xFFFF else np.uint32))
-        meshes.append({"name": name, "primitives": [_primitive(len(accessors))]})
+        primitive = {"attributes": {"POSITION": len(accessors)}, "indices": len(accessors) + 1}
+        meshes.append({"name": name, "primitives": [primitive]})
         if label and name in _NO_LABEL:
             meshes[-1]["extras"] = {"label": True}
         nodes.append({"name": name, "mesh": len(meshes) - 1})
@@ -120,7 +121,9 @@ def ply(mesh: Mesh, extras: Extras | None = None) -> bytes:
         "end_header\n",
     ]
     rows = np.empty(len(mesh.faces), dtype=[("count", "u1"), ("corners", "<i4", 3), ("label", "<i4")])
-    rows["count"], rows["corners"], rows["label"] = 3, mesh.faces, _labels(mesh)
+    rows["count"], rows["corners"], rows["label"] = 3, mesh.faces, -1
+    if mesh.face_labels is not None:
+        rows["label"] = mesh.face_labels
     return "\n".join(header).encode() + mesh.vertices.astype("<f8").tobytes() + rows.tobytes()
 
 
@@ -156,20 +159,12 @@ def _parts(mesh: Mesh) -> Iterator[tuple[str, Ints, bool]]:
             yield name, mesh.faces[chosen], i >= 0
 
 
-def _labels(mesh: Mesh) -> Ints:
-    return np.full(len(mesh.faces), -1) if mesh.face_labels is None else mesh.face_labels
-
-
-def _primitive(accessor: int) -> dict[str, Any]:
-    return {"attributes": {"POSITION": accessor}, "indices": accessor + 1}
-
-
 def _accessor(view: int, array: np.ndarray[Any, Any]) -> dict[str, Any]:
     kind = {"f4": 5126, "u2": 5123, "u4": 5125}[array.dtype.str[1:]]
-    if array.ndim == 1:
-        return {"bufferView": view, "componentType": kind, "count": len(array), "type": "SCALAR"}
-    limits = {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
-    return {"bufferView": view, "componentType": kind, "count": len(array), "type": "VEC3", **limits}
+    accessor = {"bufferView": view, "componentType": kind, "count": len(array), "type": "SCALAR"}
+    if array.ndim == 2:
+        accessor |= {"type": "VEC3", "min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
+    return accessor
 
 
 def _title(extras: Extras | None) -> str:

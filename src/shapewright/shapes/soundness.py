@@ -43,12 +43,10 @@ class Soundness:
     def __str__(self) -> str:
         wrong = [name for name in ("closed", "manifold", "oriented") if not getattr(self, name)]
         faults = [f"not {name}" for name in wrong]
-        faults += [f"{n} {what}" for n, what in self._counts() if n]
+        counts = (self.self_intersections, "self-intersections"), (self.slivers, "slivers")
+        faults += [f"{n} {what}" for n, what in counts if n]
         parts = f"{self.triangles} triangles in {self.components} component{'s' if self.components != 1 else ''}"
         return f"{', '.join(faults) or 'sound'}; {parts}"
-
-    def _counts(self) -> tuple[tuple[int, str], ...]:
-        return (self.self_intersections, "self-intersections"), (self.slivers, "slivers")
 
 
 def soundness(vertices: Floats, faces: Ints) -> Soundness:
