@@ -65,42 +65,28 @@ def with_bar(rng: Random) -> Sketch:
 
 def with_shelves(rng: Random) -> Sketch:
     height, leg = rng.uniform(0.55, 1.0), rng.uniform(0.04, 0.08)
-    boards = [
-        box((1 - leg, 0.035), at=(0, level * height)) for level in (rng.uniform(0.1, 0.3), rng.uniform(0.45, 0.65))
-    ]
-    return top(rng, height, 0.045) | pair(box((leg, height), at=(0.5 - leg / 2, height / 2))) | union(*boards)
+    levels = (rng.uniform(0.1, 0.3), rng.uniform(0.45, 0.65))
+    boards = union(*(box((1 - leg, 0.035), at=(0, level * height)) for level in levels))
+    return top(rng, height, 0.045) | pair(box((leg, height), at=(0.5 - leg / 2, height / 2))) | boards
 
 
 def splayed(rng: Random) -> Sketch:
     height, thick, leg = rng.uniform(0.45, 0.8), rng.uniform(0.03, 0.06), rng.uniform(0.05, 0.08)
     x, lean = rng.uniform(0.3, 0.42), rng.uniform(0.03, 0.12)
     legs = pair(tapered(x, x + lean, height - thick / 2, leg, leg * rng.uniform(0.4, 0.8)))
-    apron = (
-        box((2 * x, 0.06), at=(0, height - thick - 0.03))
-        if rng.random() < 0.5
-        else box((0.1, thick), at=(0, height - thick / 2))
-    )
-    return top(rng, height, thick) | legs | apron
+    size, level = ((2 * x, 0.06), thick + 0.03) if rng.random() < 0.5 else ((0.1, thick), thick / 2)
+    return top(rng, height, thick) | legs | box(size, at=(0, height - level))
 
 
 def pedestal(rng: Random) -> Sketch:
     height, thick, wide = rng.uniform(0.65, 1.05), rng.uniform(0.025, 0.05), rng.uniform(0.07, 0.16)
-    foot, low = rng.uniform(0.4, 0.7), rng.uniform(0.03, 0.08)
+    stand, low = rng.uniform(0.4, 0.7), rng.uniform(0.03, 0.08)
     waist, hem = wide * rng.uniform(0.5, 1.3), wide * rng.uniform(0.9, 1.6)
-    right = spline((wide / 2, height - thick), (waist / 2, height / 2), (hem / 2, low / 2))
-    shaft = polygon([*right, *([-x, y] for x, y in right[::-1])])
+    shaft = spline((wide / 2, height - thick), (waist / 2, height / 2), (hem / 2, low / 2))
     slope = rng.uniform(0.3, 1.0) * low
-    base = polygon(
-        [
-            (-foot / 2, 0),
-            (foot / 2, 0),
-            (foot / 2, low - slope),
-            (hem / 2, low),
-            (-hem / 2, low),
-            (-foot / 2, low - slope),
-        ]
-    )
-    return top(rng, height, thick) | shaft | base
+    base = ((stand / 2, 0), (stand / 2, low - slope), (hem / 2, low))
+    foot, column = (polygon([*right, *((-x, y) for x, y in right[::-1])]) for right in (base, shaft))
+    return top(rng, height, thick) | column | foot
 
 
 def trestle(rng: Random) -> Sketch:
@@ -162,12 +148,10 @@ def bench(rng: Random) -> Sketch:
     count = int(rng.integers(2, 4))
     step = (0.96 - leg) / (count - 1)
     legs = box((leg, height), at=(leg / 2 - 0.48, height / 2)).array(count, (step, 0))
-    seat = box((1, 0.06), at=(0, height - 0.03))
+    seat = box((1, 0.06), at=(0, height - 0.03)) | legs
     if rng.random() < 0.5:
-        return seat | legs
-    return (
-        seat | legs | box((1, 0.1), at=(0, 1.7 * height)) | pair(box((leg, height), at=(0.48 - leg / 2, 1.3 * height)))
-    )
+        return seat
+    return seat | box((1, 0.1), at=(0, 1.7 * height)) | pair(box((leg, height), at=(0.48 - leg / 2, 1.3 * height)))
 
 
 def tables() -> dict[str, Drawing]:

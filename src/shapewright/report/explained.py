@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.runs.folder import EXPLANATION, read_json
+from shapewright.shapes import Floats
 
 PICTURES = "suggestions"
 SHOWN = 6
 """Regions drawn on a pair of thumbnails, at most; a record lists the weightiest first."""
 _EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b) in (1, 2, 4)]
-
-Floats = NDArray[np.float64]
 
 
 def read_explanation(folder: Path) -> dict[str, Any] | None:
@@ -30,14 +28,13 @@ def read_explanation(folder: Path) -> dict[str, Any] | None:
     record = read_json(path)
     for suggestion in record["suggestions"]:
         picture = folder / suggestion["picture"] if suggestion.get("picture") else None
-        data = base64.b64encode(picture.read_bytes()).decode() if picture and picture.is_file() else None
-        suggestion["picture"] = data and "data:image/png;base64," + data
+        suggestion["picture"] = embedded(picture.read_bytes()) if picture and picture.is_file() else None
     return record
 
 
-def badges(reference: Mapping[str, Any]) -> list[dict[str, str]]:
-    """Kind and text of each cause."""
-    return [{"kind": cause["kind"], "text": cause["text"]} for cause in reference["causes"]]
+def embedded(picture: bytes) -> str:
+    """A PNG as the address of an image that a page holds itself."""
+    return "data:image/png;base64," + base64.b64encode(picture).decode()
 
 
 def outlines(reference: Mapping[str, Any]) -> tuple[list[str], list[str]]:
@@ -62,5 +59,4 @@ def _corners(region: Mapping[str, Any]) -> Floats:
 def _path(corners: Floats) -> str:
     """The edges of a box as an SVG path."""
     column, row, _ = THUMBNAIL.project(corners, 100)
-    lines: Sequence[str] = [f"M{column[a]:.1f} {row[a]:.1f}L{column[b]:.1f} {row[b]:.1f}" for a, b in _EDGES]
-    return "".join(lines)
+    return "".join(f"M{column[a]:.1f} {row[a]:.1f}L{column[b]:.1f} {row[b]:.1f}" for a, b in _EDGES)

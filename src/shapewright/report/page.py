@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import io
 import math
 from datetime import datetime
@@ -14,7 +13,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from PIL import Image
 
 from shapewright.judging.paper import FAR, Metric
-from shapewright.report.explained import badges, outlines, read_explanation
+from shapewright.report.explained import embedded, outlines, read_explanation
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import read_record
 from shapewright.storage import write_file
@@ -112,11 +111,11 @@ def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] 
         "tints": [colour(far * threshold * i / (TINTS - 1), threshold, far) for i in range(TINTS)],
         "at_limit": {
             parameter["name"]: sum(parameter["name"] in reference["at_limit"] for reference in references.values())
-            for parameter in record["procedure"]["parameters"]
+            for parameter in parameters
         },
         "curves": _curves(record["metrics"]["curve"]),
         "cameras": _cameras(record["metrics"].get("cameras")),
-        "data": {"parameters": [_parameter(p) for p in record["procedure"]["parameters"]], "pairs": _details(pairs)},
+        "data": {"parameters": [_parameter(p) for p in parameters], "pairs": _details(pairs)},
     }
 
 
@@ -131,28 +130,27 @@ def _pair(
     distance = reference["distance"]
     files = [folder / "thumbnails" / f"{reference['slug']}.{kind}.png" for kind in ("reference", "replica")]
     pictures = [file.read_bytes() if file.is_file() else None for file in files]
-    values = reference["parameters"] or {}
+    causes = told["causes"] if told else []
     return {
         **reference,
-        "causes": badges(told) if told else [],
+        "causes": [{"kind": cause["kind"], "text": cause["text"]} for cause in causes],
         "outlines": outlines(told) if told and not reference["compatible"] else ([], []),
         "colour": colour(distance, threshold, far),
         "tint": None if distance is None else round(min(distance / (far * threshold), 1.0) * (TINTS - 1)),
         "pictures": pictures,
-        "sources": [p and "data:image/png;base64," + base64.b64encode(p).decode() for p in pictures],
+        "sources": [picture and embedded(picture) for picture in pictures],
         "link": reference["replica"] and quote(reference["replica"]),
-        "values": [
-            [
-                _value(values[p["name"]]),
-                _place(p, values[p["name"]]),
-                p["name"] in reference["active"],
-                p["name"] in reference["at_limit"],
-            ]
-            if p["name"] in values
-            else None
-            for p in parameters
-        ],
+        "values": [_shown(p, reference) for p in parameters],
     }
+
+
+def _shown(parameter: dict[str, Any], reference: dict[str, Any]) -> list[Any] | None:
+    """A parameter's value in words, its place, whether it has an effect, and whether it is at its limit."""
+    name, values = parameter["name"], reference["parameters"] or {}
+    if name not in values:
+        return None
+    words, place = _value(values[name]), _place(parameter, values[name])
+    return [words, place, *(name in reference[key] for key in ("active", "at_limit"))]
 
 
 def _details(pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
