@@ -35,9 +35,9 @@ def test_it_measures_what_the_comparisons_measure():
     measures = target_of(reference, sw.Settings(seed=3, align="upright")).measures(replica)
     assert measures == Measures(
         light_field.distance(reference, replica, "upright"),
-        float(intersection_over_union([reference], [replica])[0]),
+        intersection_over_union(reference, replica),
         chamfer(reference, replica, seed=3),
-        float(depth_difference([reference], [replica])[0]),
+        depth_difference(reference, replica),
     )
     assert measures.chamfer != chamfer(reference, replica, seed=0)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shapewright.settings import Settings
-from shapewright.shapes import Floats, Ints
+from shapewright.shapes import Floats
 
 CUT = Settings.cut
 """Share of the largest distance up to which groups are merged (paper section 4.3)."""
@@ -38,7 +38,16 @@ def group(names: Sequence[str], distances: Floats, cut: float = CUT, absolute: b
     """
     if len(names) < 2:
         return tuple(Group(name, (name,)) for name in names)
-    labels = clusters(distances, cut if absolute else cut * float(distances.max()))
+    from sklearn.cluster import AgglomerativeClustering  # slow to import, and the studio's bench does not need it
+
+    limit = cut if absolute else cut * float(distances.max())
+    linkage = AgglomerativeClustering(
+        n_clusters=None,
+        metric="precomputed",
+        linkage="complete",
+        distance_threshold=float(np.nextafter(limit, np.inf)),
+    )
+    labels = linkage.fit_predict(distances)
     groups = []
     for label in np.unique(labels):
         rows = np.flatnonzero(labels == label)
@@ -46,18 +55,3 @@ def group(names: Sequence[str], distances: Floats, cut: float = CUT, absolute: b
         order = rows[np.lexsort((rows, inward))]
         groups.append(Group(names[order[0]], tuple(names[i] for i in order)))
     return tuple(sorted(groups, key=lambda g: (-len(g), g.representative)))
-
-
-def clusters(distances: Floats, limit: float) -> Ints:
-    """A number of its cluster for each of N shapes: complete linkage, merged up to ``limit``."""
-    if len(distances) < 2:
-        return np.zeros(len(distances), dtype=np.int64)
-    from sklearn.cluster import AgglomerativeClustering  # slow to import, and the studio's bench does not need it
-
-    linkage = AgglomerativeClustering(
-        n_clusters=None,
-        metric="precomputed",
-        linkage="complete",
-        distance_threshold=float(np.nextafter(limit, np.inf)),
-    )
-    return np.asarray(linkage.fit_predict(distances), dtype=np.int64)

@@ -75,9 +75,9 @@ class MeshTarget:
             return Measures()
         return Measures(
             distance,
-            float(intersection_over_union([self.shape], [replica], threads=1)[0]),
+            intersection_over_union(self.shape, replica),
             chamfer(self.shape, replica, seed=self._settings.seed),
-            float(depth_difference([self.shape], [replica], threads=1)[0]),
+            depth_difference(self.shape, replica),
         )
 
     def compatible(self, measures: Measures) -> bool:

@@ -6,7 +6,7 @@ import pytest
 import trimesh
 
 from shapewright.comparison.light_field import cache as descriptor_cache
-from shapewright.comparison.light_field.cache import DescriptorCache
+from shapewright.comparison.light_field.cache import described_once
 from shapewright.comparison.light_field.description import Descriptor, describe
 from shapewright.shapes import Mesh
 
@@ -34,34 +34,32 @@ def described(monkeypatch: pytest.MonkeyPatch) -> list[Mesh]:
 
 
 def test_a_mesh_is_described_once(tmp_path: Path, described: list[Mesh]):
-    cache = DescriptorCache(tmp_path / "new" / "folder")
-    first = cache.describe(box(1, 2, 3))
-    again = DescriptorCache(tmp_path / "new" / "folder").describe(box(1, 2, 3))
+    first = described_once(box(1, 2, 3), tmp_path / "new" / "folder")
+    again = described_once(box(1, 2, 3), tmp_path / "new" / "folder")
     assert len(described) == 1
     assert same(first, again)
     assert same(first, describe(box(1, 2, 3)))
 
 
 def test_other_geometry_and_other_bits_are_other_entries(tmp_path: Path, described: list[Mesh]):
-    cache = DescriptorCache(tmp_path)
-    results = [cache.describe(box(1, 2, 3)), cache.describe(box(1, 2, 2.5)), cache.describe(box(1, 2, 3), bits=8)]
+    wanted = ((box(1, 2, 3), 4), (box(1, 2, 2.5), 4), (box(1, 2, 3), 8))
+    results = [described_once(mesh, tmp_path, bits) for mesh, bits in wanted]
     assert len(described) == 3
     assert [result.bits for result in results] == [4, 4, 8]
-    assert same(cache.describe(box(1, 2, 3), bits=8), results[2])
+    assert same(described_once(box(1, 2, 3), tmp_path, bits=8), results[2])
     assert len(described) == 3
 
 
 def test_another_format_is_not_read(tmp_path: Path, described: list[Mesh], monkeypatch: pytest.MonkeyPatch):
-    DescriptorCache(tmp_path).describe(box(1, 2, 3))
+    described_once(box(1, 2, 3), tmp_path)
     monkeypatch.setattr(descriptor_cache, "FORMAT", descriptor_cache.FORMAT + 1)
-    DescriptorCache(tmp_path).describe(box(1, 2, 3))
+    described_once(box(1, 2, 3), tmp_path)
     assert len(described) == 2
 
 
 @pytest.mark.parametrize("damage", ["empty", "cut", "flipped", "other arrays", "folder"])
 def test_a_damaged_file_is_replaced(tmp_path: Path, described: list[Mesh], damage: str):
-    cache = DescriptorCache(tmp_path)
-    expected = cache.describe(box(1, 2, 3))
+    expected = described_once(box(1, 2, 3), tmp_path)
     (path,) = tmp_path.iterdir()
     whole = path.read_bytes()
     if damage == "other arrays":
@@ -75,9 +73,9 @@ def test_a_damaged_file_is_replaced(tmp_path: Path, described: list[Mesh], damag
         path.write_bytes({"empty": b"", "cut": whole[:middle], "flipped": flipped}[damage])
     if damage == "folder":
         with pytest.raises(OSError, match=path.name):
-            cache.describe(box(1, 2, 3))
+            described_once(box(1, 2, 3), tmp_path)
         return
-    assert same(cache.describe(box(1, 2, 3)), expected)
+    assert same(described_once(box(1, 2, 3), tmp_path), expected)
     assert path.read_bytes() == whole
     assert len(described) == 2
 
@@ -85,7 +83,7 @@ def test_a_damaged_file_is_replaced(tmp_path: Path, described: list[Mesh], damag
 def test_many_writers_at_once(tmp_path: Path):
     meshes = [box(1, 2, 1 + n % 3) for n in range(24)]
     with ThreadPoolExecutor(8) as pool:
-        results = list(pool.map(DescriptorCache(tmp_path).describe, meshes))
+        results = list(pool.map(lambda mesh: described_once(mesh, tmp_path), meshes))
     assert all(same(result, results[n % 3]) for n, result in enumerate(results))
     assert len(list(tmp_path.iterdir())) == 3
 
@@ -96,5 +94,5 @@ def test_a_failed_write_leaves_nothing(tmp_path: Path, monkeypatch: pytest.Monke
 
     monkeypatch.setattr(np, "savez", full)
     with pytest.raises(OSError, match="No space left"):
-        DescriptorCache(tmp_path).describe(box(1, 2, 3))
+        described_once(box(1, 2, 3), tmp_path)
     assert list(tmp_path.iterdir()) == []

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from shapewright.comparison.surfaces import sample_surface
+from shapewright.comparison.surfaces import sample
 from shapewright.feedback.parts.decomposition import MOST, decompose
 from shapewright.feedback.surfaces.interior import filled
 from shapewright.modelling.solids import box, cylinder
@@ -10,7 +10,7 @@ from shapewright.modelling.solids import box, cylinder
 def pieces(solid, count=1500):
     mesh = solid.mesh()
     unit = float(mesh.extent.max())
-    points = sample_surface(mesh.normalised(), count)
+    points = sample(mesh.normalised(), count).points
     middle = mesh.bounds.mean(axis=0)
     points = mesh.normalisation().invert(filled(mesh.normalised(), points))
     return decompose(points, (middle[0], middle[2]), unit)

@@ -1,6 +1,6 @@
 import numpy as np
 
-from shapewright.comparison.surfaces import sample_surface
+from shapewright.comparison.surfaces import sample
 from shapewright.feedback.surfaces.interior import filled
 from shapewright.modelling.solids import box, cylinder
 from shapewright.shapes import concatenate
@@ -14,8 +14,8 @@ def table():
 
 def test_a_post_is_filled_and_a_table_is_not():
     post = cylinder((0.2, 1, 0.2)).mesh()
-    points = filled(post, sample_surface(post, 500))
+    points = filled(post, sample(post, 500).points)
     assert len(points) > 700 and np.hypot(points[500:, 0], points[500:, 2]).min() < 0.02
-    points = filled(table(), sample_surface(table(), 500))
+    points = filled(table(), sample(table(), 500).points)
     assert 500 < len(points) < 800
     assert not (np.abs(points[500:]) < [0.3, 0.25, 0.15]).all(axis=1).any()

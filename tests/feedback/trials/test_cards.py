@@ -3,7 +3,7 @@ import io
 import numpy as np
 from PIL import Image
 
-from shapewright.comparison.surfaces import sample_surface
+from shapewright.comparison.surfaces import sample
 from shapewright.feedback.trials.cards import Example, card
 from shapewright.modelling.solids import box
 
@@ -11,7 +11,7 @@ from shapewright.modelling.solids import box
 def test_a_card_marks_what_is_missing_on_the_reference_alone():
     top, foot = box((1, 0.2, 1), at=(0, 0.4, 0)), box((1, 0.2, 1), at=(0, -0.4, 0))
     reference = (top | foot | box((0.2, 1, 0.2))).mesh().normalised()
-    points = sample_surface(reference, 4000)
+    points = sample(reference, 4000).points
     example = Example(reference, points[points[:, 1] < -0.3], top.mesh(), reference)
     picture = np.array(Image.open(io.BytesIO(card([example, example], 120))))
     assert picture.shape == (240, 360, 3)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zipfile
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -19,26 +18,21 @@ _DAMAGED = (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile)
 _FORM = (10, 10, 47)
 
 
-@dataclass(frozen=True)
-class DescriptorCache:
-    """A folder of descriptors. Any number of processes may use it at once: files appear whole, by a rename."""
+def described_once(mesh: Mesh, folder: Path, bits: int = 4) -> Descriptor:
+    """The descriptor from a folder, or a new one that is put there; a damaged file is replaced.
 
-    folder: Path
-
-    def describe(self, mesh: Mesh, bits: int = 4) -> Descriptor:
-        """The descriptor from the folder, or a new one that is put there; a damaged file is replaced.
-
-        Raises ValueError as ``descriptor.describe`` does, and OSError when the folder cannot be written.
-        """
-        path = self.folder / f"{shape_digest(mesh)}-{bits}bit-v{FORMAT}.npz"
-        known = _read(path, bits)
-        if known is not None:
-            return known
-        descriptor = describe(mesh, bits)
-        self.folder.mkdir(parents=True, exist_ok=True)
-        with whole_file(path) as partial, partial.open("wb") as file:
-            np.savez(file, coefficients=descriptor.coefficients)
-        return descriptor
+    Any number of processes may use a folder at once: files appear whole, by a rename. Raises ValueError as
+    ``description.describe`` does, and OSError when the folder cannot be written.
+    """
+    path = folder / f"{shape_digest(mesh)}-{bits}bit-v{FORMAT}.npz"
+    known = _read(path, bits)
+    if known is not None:
+        return known
+    descriptor = describe(mesh, bits)
+    folder.mkdir(parents=True, exist_ok=True)
+    with whole_file(path) as partial, partial.open("wb") as file:
+        np.savez(file, coefficients=descriptor.coefficients)
+    return descriptor
 
 
 def _read(path: Path, bits: int) -> Descriptor | None:

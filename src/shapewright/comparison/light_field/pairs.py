@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from shapewright.comparison.light_field.cache import DescriptorCache
+from shapewright.comparison.light_field.cache import described_once
 from shapewright.comparison.light_field.description import Descriptor, describe
 from shapewright.comparison.light_field.dodecahedra import alignments, upright_rotations
 from shapewright.comparison.light_field.least_cost import Weighted, least_of_all, least_of_some
@@ -36,7 +36,7 @@ def descriptor(shape: Mesh, bits: int = 4, cache: str | PathLike[str] | None = N
     bits: 4, to which ``THRESHOLD`` belongs, or 8 as in an older version of the original. cache: a folder that keeps
     descriptors by geometry. Raises ValueError for a shape without faces, without size, or that no view shows.
     """
-    return describe(shape, bits) if cache is None else DescriptorCache(Path(cache)).describe(shape, bits)
+    return describe(shape, bits) if cache is None else described_once(shape, Path(cache), bits)
 
 
 def descriptors(
