@@ -1,4 +1,4 @@
-// Made from src/shapewright/studio/wire/changes.py by `python -m shapewright.studio.wire.typescript`.
+// Made from src/shapewright/studio/wire/changes.py by `python tools/message_types.py`.
 
 import type { Collection, Mark, Procedure, Tile } from "./board";
 import type { Job, JobKind } from "./jobs";

@@ -1,4 +1,4 @@
-// Made from src/shapewright/studio/wire/*.py by `python -m shapewright.studio.wire.typescript`.
+// Made from src/shapewright/studio/wire/*.py by `python tools/message_types.py`.
 export type * from "./values";
 export type * from "./problems";
 export type * from "./board";

@@ -1,4 +1,4 @@
-// Made from src/shapewright/studio/wire/jobs.py by `python -m shapewright.studio.wire.typescript`.
+// Made from src/shapewright/studio/wire/jobs.py by `python tools/message_types.py`.
 
 import type { Address } from "./values";
 import type { Problem } from "./problems";

@@ -1,4 +1,4 @@
-// Made from src/shapewright/studio/wire/references.py by `python -m shapewright.studio.wire.typescript`.
+// Made from src/shapewright/studio/wire/references.py by `python tools/message_types.py`.
 
 import type { Address, Slug, Values, Vector } from "./values";
 import type { Problem } from "./problems";

@@ -1,4 +1,4 @@
-// Made from src/shapewright/studio/wire/requests.py by `python -m shapewright.studio.wire.typescript`.
+// Made from src/shapewright/studio/wire/requests.py by `python tools/message_types.py`.
 
 import type { JobKind } from "./jobs";
 import type { Slug, Values } from "./values";

@@ -1,4 +1,4 @@
-// Made from src/shapewright/studio/wire/runs.py by `python -m shapewright.studio.wire.typescript`.
+// Made from src/shapewright/studio/wire/runs.py by `python tools/message_types.py`.
 
 import type { Address, Slug } from "./values";
 import type { Collection, Parameter } from "./board";

@@ -1,4 +1,4 @@
-// Made from src/shapewright/settings.py by `python -m shapewright.studio.wire.typescript`.
+// Made from src/shapewright/settings.py by `python tools/message_types.py`.
 
 export const PRESETS = ["fast", "paper"] as const;
 export const SETTINGS = {

@@ -1,4 +1,4 @@
-// Made from src/shapewright/studio/wire/values.py by `python -m shapewright.studio.wire.typescript`.
+// Made from src/shapewright/studio/wire/values.py by `python tools/message_types.py`.
 
 export type Slug = string;
 

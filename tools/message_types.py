@@ -1,4 +1,4 @@
-"""The types of the messages in TypeScript, for the page: ``python -m shapewright.studio.wire.typescript``.
+"""The types of the messages in TypeScript, for the page: ``python tools/message_types.py``.
 
 Each module of messages becomes a module of ``studio-page/src/wire/messages``. What settings may be is a module too.
 """
@@ -28,7 +28,7 @@ _PLAIN: Mapping[Any, str] = {
     type(None): "null",
     Any: "unknown",
 }
-_HEAD = "// Made from src/shapewright/studio/wire/{}.py by `python -m shapewright.studio.wire.typescript`.\n"
+_HEAD = "// Made from src/shapewright/studio/wire/{}.py by `python tools/message_types.py`.\n"
 
 
 def modules() -> dict[str, str]:
