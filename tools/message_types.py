@@ -120,10 +120,9 @@ def _with_defaults(kind: Any) -> set[str]:
 
 
 def _documented(kind: Any) -> tuple[str, dict[str, str]]:
-    """The docstring without its fields, and what it says of each of these."""
-    text = inspect.getdoc(kind) or ""
-    notes = dict(re.findall(r"^(\w+): (.*)$", text, re.M))
-    return " ".join(re.sub(r"^\w+: .*$", "", text, flags=re.M).split()) or kind.__name__, notes
+    """The docstring, and the comment behind each field."""
+    notes = re.findall(r"^    (\w+): .*  # (.*)$", inspect.getsource(kind), re.M)
+    return " ".join((inspect.getdoc(kind) or "").split()), {field: f"{note.rstrip('.')}." for field, note in notes}
 
 
 def _optional(hint: Any) -> tuple[bool, Any]:

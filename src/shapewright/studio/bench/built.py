@@ -11,24 +11,17 @@ from shapewright.studio.wire.board import Parameter
 
 @dataclass(frozen=True)
 class Version:
-    """A procedure that was read.
-
-    parameters: as the page gets them.
-    """
+    """A procedure that was read."""
 
     name: str
-    parameters: list[Parameter]
+    parameters: list[Parameter]  # as the page gets them
     defaults: Parameters
 
 
 @dataclass(frozen=True)
 class Built:
-    """A shape that was built, or could not be.
-
-    active: names of the parameters that matter there.
-    at_limit: names of those at an end of their Range.
-    """
+    """A shape that was built, or could not be."""
 
     build: Build
-    active: tuple[str, ...] = ()
-    at_limit: tuple[str, ...] = ()
+    active: tuple[str, ...] = ()  # names of the parameters that matter there
+    at_limit: tuple[str, ...] = ()  # names of those at an end of their Range

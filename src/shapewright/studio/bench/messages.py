@@ -20,17 +20,12 @@ class BenchMessage(Struct, frozen=True, kw_only=True, tag_field="type", tag=str.
 
 
 class References(BenchMessage, frozen=True):
-    """Where the references are, and how replicas are measured.
-
-    cache: a folder for pictures and descriptors.
-    align: see Settings.
-    seed: see Settings.
-    """
+    """Where the references are, and how replicas are measured."""
 
     origin: Origin
-    cache: str | None
-    align: Align
-    seed: int
+    cache: str | None  # a folder for pictures and descriptors
+    align: Align  # see Settings
+    seed: int  # see Settings
 
 
 class Pictures(BenchMessage, frozen=True):
@@ -46,17 +41,12 @@ class First(BenchMessage, frozen=True):
 
 
 class Load(BenchMessage, frozen=True):
-    """Take a version of the procedure up.
+    """Take a version of the procedure up."""
 
-    load: its number.
-    seconds: what building one shape may take.
-    memory_mb: memory that it may take.
-    """
-
-    load: int
+    load: int  # its number
     procedure: str
-    seconds: float
-    memory_mb: int
+    seconds: float  # what building one shape may take
+    memory_mb: int  # memory that it may take
 
 
 class SweepOrder(BenchMessage, frozen=True):
@@ -67,22 +57,16 @@ class SweepOrder(BenchMessage, frozen=True):
 
 
 class Live(BenchMessage, frozen=True):
-    """Answer a page's evaluation.
+    """Answer a page's evaluation."""
 
-    client: the page.
-    """
-
-    client: int
+    client: int  # the page
     evaluate: Evaluate
 
 
 class Fetch(BenchMessage, frozen=True):
-    """One thing about a reference is asked for.
+    """One thing about a reference is asked for."""
 
-    request: number that the reply carries.
-    """
-
-    request: int
+    request: int  # number that the reply carries
     slug: Slug
     what: Literal["about", "shape", "render"]
     parameters: Values | None = None
@@ -125,12 +109,9 @@ class Loaded(BenchMessage, frozen=True):
 
 
 class Unusable(BenchMessage, frozen=True):
-    """The procedure cannot be used.
+    """The procedure cannot be used."""
 
-    load: null where it was usable at first.
-    """
-
-    load: int | None
+    load: int | None  # null where it was usable at first
     problem: Problem
 
 
@@ -154,13 +135,10 @@ class Measured(BenchMessage, frozen=True):
 
 
 class SweepEnded(BenchMessage, frozen=True):
-    """A sweep is at its end.
-
-    given_up: too many shapes exceeded the time limit.
-    """
+    """A sweep is at its end."""
 
     sweep: int
-    given_up: bool
+    given_up: bool  # too many shapes exceeded the time limit
 
 
 LiveMessage: TypeAlias = DistanceMessage | DrawingMessage | FailedMessage
@@ -174,14 +152,11 @@ class Answered(BenchMessage, frozen=True):
 
 
 class Reply(BenchMessage, frozen=True):
-    """To a Fetch: a message as plain values, or None with a payload.
-
-    error: there is no such thing.
-    """
+    """To a Fetch: a message as plain values, or None with a payload."""
 
     request: int
     message: Any = None
-    error: str | None = None
+    error: str | None = None  # there is no such thing
 
 
 News: TypeAlias = Drawn | Unreadable | Loaded | Unusable | Swept | Measured | SweepEnded

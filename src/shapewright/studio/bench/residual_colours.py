@@ -22,16 +22,13 @@ _BEYOND, _AGREES, _WITHIN = (203, 60, 42), (226, 226, 222), (41, 98, 176)
 
 @dataclass(frozen=True, eq=False)
 class Residual:
-    """vertices (V, 3), faces (F, 3); distances (V,) to the other surface; colours (V, 3) in linear light, 0 to 1.
-
-    signed: whether the other surface has an inside; distances are then negative there.
-    """
+    """vertices (V, 3), faces (F, 3); distances (V,) to the other surface; colours (V, 3) in linear light, 0 to 1."""
 
     vertices: Floats
     faces: Ints
     distances: Floats
     colours: Floats
-    signed: bool
+    signed: bool  # whether the other surface has an inside; distances are then negative there
 
 
 class ResidualColours:

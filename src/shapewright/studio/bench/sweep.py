@@ -24,23 +24,15 @@ _MEMORY = 24 * 2**20
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """A replica for each of some parameters.
+    """A replica for each of some parameters."""
 
-    number: goes with every answer.
-    items: parameters by slug.
-    first: says which references the author looks at.
-    root: folder that problems name files relative to.
-    target: what a reference's replicas are measured against; None where it cannot be read.
-    send: takes an answer and its payload.
-    """
-
-    number: int
-    items: Mapping[Slug, Values]
-    first: Callable[[], list[Slug]]
-    root: Path
+    number: int  # goes with every answer
+    items: Mapping[Slug, Values]  # parameters by slug
+    first: Callable[[], list[Slug]]  # says which references the author looks at
+    root: Path  # folder that problems name files relative to
     workshop: Workshop
-    target: Callable[[str], Target | None]
-    send: Callable[[News, bytes], None]
+    target: Callable[[str], Target | None]  # what replicas are measured against; None where it cannot be read
+    send: Callable[[News, bytes], None]  # takes an answer and its payload
 
     def run(self) -> Iterator[None]:
         """One shape a step. Ends early when it is interrupted, or when too many shapes exceed the time limit.

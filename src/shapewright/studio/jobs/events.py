@@ -23,26 +23,20 @@ class Event(Struct, frozen=True, kw_only=True, tag=True):
 
 
 class Advanced(Event, frozen=True):
-    """A stage went on.
-
-    losses: of an epoch that ended.
-    """
+    """A stage went on."""
 
     stage: str
     done: int
     total: int
     remark: str = ""
-    losses: Epoch | None = None
+    losses: Epoch | None = None  # of an epoch that ended
 
 
 class Guessed(Event, frozen=True):
-    """Parameters are known before the end of a fit.
-
-    answer: by name of the reference.
-    """
+    """Parameters are known before the end of a fit."""
 
     kind: AnswerKind
-    answer: dict[str, Values]
+    answer: dict[str, Values]  # by name of the reference
 
 
 class Failed(Event, frozen=True):

@@ -17,17 +17,12 @@ from shapewright.studio.wire.problems import Problem
 
 @dataclass(eq=False)
 class Runner:
-    """One kind of work, of which at most one runs at a time; see ``wire.jobs.Job`` for the other fields.
-
-    root: folder that problems name files relative to.
-    changed: called after every change.
-    guessed: called with parameters that are known before the end of a fit.
-    """
+    """One kind of work, of which at most one runs at a time; see ``wire.jobs.Job`` for the other fields."""
 
     kind: JobKind
-    root: Path
-    changed: Callable[[Runner], object]
-    guessed: Callable[[Guessed], object]
+    root: Path  # folder that problems name files relative to
+    changed: Callable[[Runner], object]  # called after every change
+    guessed: Callable[[Guessed], object]  # called with parameters that are known before the end of a fit
     state: JobState = "idle"
     stages: list[JobStage] = field(default_factory=list)
     curve: list[Epoch] = field(default_factory=list)

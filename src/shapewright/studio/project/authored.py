@@ -12,27 +12,17 @@ from shapewright.studio.wire.values import Values
 
 @dataclass(eq=False)
 class Authored:
-    """The procedure, read again and again.
-
-    state: of the newest version.
-    digest: of the text on disk.
-    name: of the newest good version.
-    parameters: of the newest good version.
-    defaults: of the newest good version.
-    load: number of the newest reading.
-    saved: whether that followed a save.
-    helper: whether the save was of another file than the procedure's own.
-    """
+    """The procedure, read again and again."""
 
     project: Project
-    state: Literal["loading", "good", "broken"] = "loading"
-    digest: str = ""
-    name: str = ""
-    parameters: list[Parameter] = field(default_factory=list)
-    defaults: Values = field(default_factory=dict)
-    load: int = 0
-    saved: bool = False
-    helper: bool = False
+    state: Literal["loading", "good", "broken"] = "loading"  # of the newest version
+    digest: str = ""  # of the text on disk
+    name: str = ""  # of the newest good version
+    parameters: list[Parameter] = field(default_factory=list)  # of the newest good version
+    defaults: Values = field(default_factory=dict)  # of the newest good version
+    load: int = 0  # number of the newest reading
+    saved: bool = False  # whether that followed a save
+    helper: bool = False  # whether the save was of another file than the procedure's own
     _fingerprint: str = ""
 
     def changed(self) -> bool:

@@ -21,19 +21,12 @@ _OUTSIDE = "a link that leads out of the project folder; start the studio with -
 
 @dataclass(frozen=True)
 class Origin:
-    """Where the references are.
+    """Where the references are."""
 
-    source: a folder, file or pattern.
-    up: axis of the files.
-    front: axis of the files; None for the usual one.
-    confine: the folder that no file may lie outside of, links followed; None for a source that was named on the command
-        line.
-    """
-
-    source: str
-    up: str = "y"
-    front: str | None = None
-    confine: str | None = None
+    source: str  # a folder, file or pattern
+    up: str = "y"  # axis of the files
+    front: str | None = None  # axis of the files; None for the usual one
+    confine: str | None = None  # no file may lie outside this folder, links followed; None: the author named the source
 
 
 @dataclass(frozen=True)

@@ -43,16 +43,11 @@ class Conflict(Exception):
 
 @dataclass(frozen=True)
 class Project:
-    """A project on disk.
+    """A project on disk."""
 
-    folder: absolute, links resolved.
-    procedure: the author's file, inside it.
-    origin: where the references are.
-    """
-
-    folder: Path
-    procedure: Path
-    origin: Origin
+    folder: Path  # absolute, links resolved
+    procedure: Path  # the author's file, inside it
+    origin: Origin  # where the references are
 
     @classmethod
     def of(

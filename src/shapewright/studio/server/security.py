@@ -40,16 +40,11 @@ Headers = Mapping[str, str]
 
 @dataclass(frozen=True)
 class Access:
-    """Who may come in.
+    """Who may come in."""
 
-    host: address that the server listens on.
-    port: port that it listens on.
-    token: of this run.
-    """
-
-    host: str
-    port: int
-    token: str = field(default_factory=lambda: secrets.token_urlsafe(32), repr=False)
+    host: str  # address that the server listens on
+    port: int  # port that it listens on
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(32), repr=False)  # of this run
 
     @property
     def cookie(self) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Literal, TypeAlias
 
 from msgspec.structs import replace
 
@@ -16,11 +15,10 @@ from shapewright.studio.session.board import tint
 from shapewright.studio.session.display import Display
 from shapewright.studio.session.pages import Pages
 from shapewright.studio.wire.board import Stage
+from shapewright.studio.wire.changes import BenchState
 from shapewright.studio.wire.requests import Evaluate
 from shapewright.studio.wire.shapes import DistanceMessage
 from shapewright.studio.wire.values import Slug, Values
-
-BenchState: TypeAlias = Literal["starting", "ready", "restarting"]
 
 
 class BenchLink:

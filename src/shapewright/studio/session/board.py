@@ -25,28 +25,22 @@ Record = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class ReferenceState:
-    """One reference, and what is known of it; see ``wire.board.Tile`` for the other fields.
-
-    iou: of the silhouettes.
-    chamfer: distance of the surfaces.
-    parameters: of the replica that is shown.
-    active: names of those that matter.
-    """
+    """One reference, and what is known of it; see ``wire.board.Tile`` for the other fields."""
 
     slug: Slug
     name: str
     reference: Address | None = None
     replica: Address | None = None
     distance: float | None = None
-    iou: float | None = None
-    chamfer: float | None = None
+    iou: float | None = None  # of the silhouettes
+    chamfer: float | None = None  # distance of the surfaces
     compatible: bool = False
     group: int | None = None
     stage: Stage = "none"
     stale: bool = False
     previous: float | None = None
-    parameters: Parameters | None = None
-    active: tuple[str, ...] = ()
+    parameters: Parameters | None = None  # of the replica that is shown
+    active: tuple[str, ...] = ()  # names of those that matter
     at_limit: tuple[str, ...] = ()
     problem: Problem | None = None
 
@@ -71,19 +65,13 @@ class ReferenceState:
 
 @dataclass(frozen=True)
 class Board:
-    """The collection as it is shown; a change makes another board.
+    """The collection as it is shown; a change makes another board."""
 
-    references: by slug, in the order of the listing.
-    groups: of the misfits.
-    run: name of the run that is shown.
-    skipped: files that cannot be read, and why.
-    """
-
-    references: Mapping[Slug, ReferenceState] = field(default_factory=dict)
-    groups: tuple[Group, ...] = ()
-    run: str | None = None
+    references: Mapping[Slug, ReferenceState] = field(default_factory=dict)  # by slug, in the order of the listing
+    groups: tuple[Group, ...] = ()  # of the misfits
+    run: str | None = None  # name of the run that is shown
     metric: Metric = field(default_factory=lambda: light_field_metric(Settings.threshold))
-    skipped: Mapping[str, str] = field(default_factory=dict)
+    skipped: Mapping[str, str] = field(default_factory=dict)  # files that cannot be read, and why
 
     def collection(self) -> Collection:
         """As the page gets it."""

@@ -14,43 +14,28 @@ Stage: TypeAlias = Annotated[Literal["none", "carried", "early", "predicted", "t
 
 
 class Tile(Struct, frozen=True, kw_only=True):
-    """One reference and its replica.
-
-    name: what people read.
-    reference: its picture, square on transparent; null until it is drawn.
-    replica: picture of the replica; null until there is one.
-    distance: null until it is measured, which may be a moment after the replica is shown.
-    colour: of the distance: green at 0, yellow at the threshold, red far beyond it.
-    group: index into the collection's groups; while a fit runs, these are those of the run before.
-    stale: the replica is of an older version of the procedure.
-    previous: distance in the run before.
-    at_limit: parameters at an end of their Range.
-    """
+    """One reference and its replica."""
 
     slug: Slug
-    name: str
-    reference: Address | None
-    replica: Address | None
-    distance: float | None
-    colour: str | None
+    name: str  # what people read
+    reference: Address | None  # its picture, square on transparent; null until it is drawn
+    replica: Address | None  # picture of the replica; null until there is one
+    distance: float | None  # null until it is measured, which may be a moment after the replica is shown
+    colour: str | None  # of the distance: green at 0, yellow at the threshold, red far beyond it
     compatible: bool
-    group: int | None
+    group: int | None  # index into the collection's groups; while a fit runs, these are those of the run before
     stage: Stage
-    stale: bool
-    previous: float | None
-    at_limit: list[str]
+    stale: bool  # the replica is of an older version of the procedure
+    previous: float | None  # distance in the run before
+    at_limit: list[str]  # parameters at an end of their Range
     problem: Problem | None
 
 
 class Group(Struct, frozen=True, kw_only=True):
-    """Incompatible references that look alike.
+    """Incompatible references that look alike."""
 
-    representative: the nearest to the group's centre; null when none of its members is there any more.
-    members: the nearest to the centre first.
-    """
-
-    representative: Slug | None
-    members: list[Slug]
+    representative: Slug | None  # the nearest to the group's centre; null when none of its members is there any more
+    members: list[Slug]  # the nearest to the centre first
 
 
 class Skipped(Struct, frozen=True, kw_only=True):
@@ -61,60 +46,40 @@ class Skipped(Struct, frozen=True, kw_only=True):
 
 
 class Collection(Struct, frozen=True, kw_only=True):
-    """All references.
+    """All references."""
 
-    run: the run that is shown; null before the first.
-    measure: what distances are.
-    criterion: when a replica is compatible, in words.
-    tiles: in natural order of names.
-    groups: the largest first.
-    """
-
-    run: str | None
+    run: str | None  # the run that is shown; null before the first
     threshold: float
-    measure: str
-    criterion: str
+    measure: str  # what distances are
+    criterion: str  # when a replica is compatible, in words
     count: int
     compatible: int
-    tiles: list[Tile]
-    groups: list[Group]
+    tiles: list[Tile]  # in natural order of names
+    groups: list[Group]  # the largest first
     skipped: list[Skipped]
 
 
 class Parameter(Struct, frozen=True, kw_only=True):
-    """One parameter of the procedure.
-
-    low: of a scalar or an integer.
-    high: of a scalar or an integer.
-    steps: of a scalar: how many values, or which, it is sampled at; any value between is allowed.
-    options: of a choice.
-    conditional: it has a ``when``; every evaluation says which parameters are active.
-    """
+    """One parameter of the procedure."""
 
     name: str
     kind: Literal["scalar", "integer", "choice", "binary"]
-    low: float | None
-    high: float | None
-    steps: int | list[float] | None
-    options: list[Value] | None
+    low: float | None  # of a scalar or an integer
+    high: float | None  # of a scalar or an integer
+    steps: int | list[float] | None  # of a scalar: how many values, or which, it is sampled at; it may lie between
+    options: list[Value] | None  # of a choice
     default: Value
-    conditional: bool = False
+    conditional: bool = False  # it has a ``when``; every evaluation says which parameters are active
 
 
 class Procedure(Struct, frozen=True, kw_only=True):
-    """The procedure on disk.
+    """The procedure on disk."""
 
-    state: when broken, the parameters are those of the last good version.
-    stale: the collection shows an older version than the file on disk.
-    digest: of the text on disk.
-    fitted: digest of the version that the newest fit used.
-    """
-
-    state: Literal["loading", "good", "broken"]
-    stale: bool
+    state: Literal["loading", "good", "broken"]  # when broken, the parameters are those of the last good version
+    stale: bool  # the collection shows an older version than the file on disk
     name: str
-    digest: str
-    fitted: str | None
+    digest: str  # of the text on disk
+    fitted: str | None  # digest of the version that the newest fit used
     parameters: list[Parameter]
 
 

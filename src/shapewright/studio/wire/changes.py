@@ -13,6 +13,8 @@ from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.runs import Run
 from shapewright.studio.wire.values import Message
 
+BenchState: TypeAlias = Literal["starting", "ready", "restarting"]
+
 
 class ProjectNames(Struct, frozen=True, kw_only=True):
     """Of the author's project: its name, and where its parts are."""
@@ -24,14 +26,10 @@ class ProjectNames(Struct, frozen=True, kw_only=True):
 
 
 class ChosenSettings(Struct, frozen=True, kw_only=True):
-    """What the author chose.
+    """What the author chose."""
 
-    auto_fit: a fit follows every save.
-    fresh: fits do not resume the run before.
-    """
-
-    auto_fit: bool
-    fresh: bool
+    auto_fit: bool  # a fit follows every save
+    fresh: bool  # fits do not resume the run before
     preset: Preset
     samples: int
     epochs: int
@@ -44,26 +42,20 @@ class ChosenSettings(Struct, frozen=True, kw_only=True):
 
 
 class State(Message, frozen=True, kw_only=True, tag="state"):
-    """Everything. It is the first message, and replaces all.
-
-    bench: the process that measures; live evaluation waits until it is ready.
-    runs: the oldest first.
-    explanation: the run that is shown has one.
-    problems: of the whole project, the worst first; empty when all is well.
-    """
+    """Everything. It is the first message, and replaces all."""
 
     version: str
     project: ProjectNames
     dimension: Literal[2, 3]
-    bench: Literal["starting", "ready", "restarting"]
+    bench: BenchState  # the process that measures; live evaluation waits until it is ready
     procedure: Procedure
     collection: Collection
     jobs: dict[JobKind, Job]
-    runs: list[Run]
+    runs: list[Run]  # the oldest first
     settings: ChosenSettings
     marks: list[Mark]
-    explanation: bool
-    problems: list[Problem]
+    explanation: bool  # the run that is shown has one
+    problems: list[Problem]  # of the whole project, the worst first; empty when all is well
 
 
 class ProcedureChanged(Message, frozen=True, kw_only=True, tag="procedure"):

@@ -37,31 +37,21 @@ class Epoch(Struct, frozen=True, kw_only=True):
 
 
 class JobResult(Struct, frozen=True, kw_only=True):
-    """What a job made.
+    """What a job made."""
 
-    run: name of the run that a fit made or an explanation is of.
-    url: of the file that an export made.
-    bytes: size of that file.
-    """
-
-    run: str | UnsetType = UNSET
-    url: Address | UnsetType = UNSET
-    bytes: int | UnsetType = UNSET
+    run: str | UnsetType = UNSET  # name of the run that a fit made or an explanation is of
+    url: Address | UnsetType = UNSET  # of the file that an export made
+    bytes: int | UnsetType = UNSET  # size of that file
 
 
 class Job(Struct, frozen=True, kw_only=True):
-    """One kind of work, of which at most one runs.
-
-    stages: in order; the last one is running. A stage may come again.
-    curve: of a fit.
-    answer: of a fit: the newest early answer.
-    """
+    """One kind of work, of which at most one runs."""
 
     kind: JobKind
     state: JobState
-    stages: list[JobStage]
-    curve: list[Epoch]
-    answer: Answer | None
+    stages: list[JobStage]  # in order; the last one is running. A stage may come again.
+    curve: list[Epoch]  # of a fit
+    answer: Answer | None  # of a fit: the newest early answer
     seconds: float
     problem: Problem | None
     result: JobResult | None

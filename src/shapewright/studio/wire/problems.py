@@ -21,24 +21,16 @@ ProblemKind: TypeAlias = Annotated[
 
 
 class Problem(Struct, frozen=True):
-    """An error that the author can mend.
-
-    file: the author's, relative to the project.
-    line: in this file, from 1.
-    text: that line.
-    slugs: the shapes that it befell.
-    parameters: of one of these shapes.
-    count: how many shapes it befell.
-    """
+    """An error that the author can mend."""
 
     kind: ProblemKind
     message: str
-    file: str | None = None
-    line: int | None = None
-    text: str | None = None
-    slugs: tuple[Slug, ...] = ()
-    parameters: Values | None = None
-    count: int | None = None
+    file: str | None = None  # the author's, relative to the project
+    line: int | None = None  # in this file, from 1
+    text: str | None = None  # that line
+    slugs: tuple[Slug, ...] = ()  # the shapes that it befell
+    parameters: Values | None = None  # of one of these shapes
+    count: int | None = None  # how many shapes it befell
 
     def of(self, *slugs: Slug) -> Problem:
         """The same, of these shapes."""

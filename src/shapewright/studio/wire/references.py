@@ -16,25 +16,18 @@ from shapewright.studio.wire.values import Address, Slug, Values, Vector
 
 
 class Units(Struct, frozen=True, kw_only=True):
-    """The way back from the normalised frame: own = axes^T @ (normalised / scale + centre). In 2D, vectors of two.
-
-    axes: unit vectors.
-    size: extents in own units, along the file's axes.
-    """
+    """The way back from the normalised frame: own = axes^T @ (normalised / scale + centre). In 2D, vectors of two."""
 
     centre: list[float]
     scale: float
-    axes: list[list[float]]
-    size: list[float]
+    axes: list[list[float]]  # unit vectors
+    size: list[float]  # extents in own units, along the file's axes
 
 
 class About(Struct, frozen=True, kw_only=True):
-    """What only somebody who has read its file knows of a reference.
+    """What only somebody who has read its file knows of a reference."""
 
-    triangles: null of a drawing.
-    """
-
-    triangles: int | None
+    triangles: int | None  # null of a drawing
     notes: list[str]
     units: Units
 
@@ -47,16 +40,12 @@ class Placement(TypedDict):
 
 
 class Region(TypedDict):
-    """A box around what one surface has and the other has not, in the normalised frame.
+    """A box around what one surface has and the other has not, in the normalised frame."""
 
-    side: unexplained ones are of the reference, surplus ones of the replica.
-    axes: unit vectors.
-    """
-
-    side: Literal["unexplained", "surplus"]
+    side: Literal["unexplained", "surplus"]  # unexplained ones are of the reference, surplus ones of the replica
     centre: Vector
     size: Vector
-    axes: tuple[Vector, Vector, Vector]
+    axes: tuple[Vector, Vector, Vector]  # unit vectors
     share: float | None
     distance: float | None
     label: str | None
@@ -89,19 +78,15 @@ class SharedCause(TypedDict):
 
 
 class Suggestion(TypedDict):
-    """A change of the procedure.
-
-    source: the procedure with the change; null where there is nothing to apply.
-    references: those that it would help.
-    """
+    """A change of the procedure."""
 
     kind: str
     title: str
     text: str
     snippet: str | None
-    source: str | None
+    source: str | None  # the procedure with the change; null where there is nothing to apply
     picture: Address | None
-    references: list[Slug]
+    references: list[Slug]  # those that it would help
     gain: float | None
     tried: Any
 
@@ -115,24 +100,15 @@ class Explanation(TypedDict):
 
 
 class Reference(Struct, frozen=True, kw_only=True):
-    """One reference in full.
-
-    path: of its file, relative to the project where it lies inside.
-    triangles: null of a drawing, and while the bench starts.
-    units: null while the bench starts.
-    parameters: of the replica that is shown.
-    predicted: what the network said, before the search.
-    spread: of scalars, about the size of the error to expect, in the parameter's own units.
-    likelihood: of the values of other parameters; values that are no text are written as JSON.
-    """
+    """One reference in full."""
 
     slug: Slug
     name: str
-    path: str | None
-    triangles: int | None
+    path: str | None  # of its file, relative to the project where it lies inside
+    triangles: int | None  # null of a drawing, and while the bench starts
     notes: list[str]
-    units: Units | None
-    parameters: Values | None
+    units: Units | None  # null while the bench starts
+    parameters: Values | None  # of the replica that is shown
     active: list[str]
     at_limit: list[str]
     distance: float | None
@@ -143,7 +119,7 @@ class Reference(Struct, frozen=True, kw_only=True):
     group: int | None
     stage: Stage
     problem: Problem | None
-    predicted: Values | None
-    spread: dict[str, float] | None
-    likelihood: dict[str, dict[str, float]] | None
+    predicted: Values | None  # what the network said, before the search
+    spread: dict[str, float] | None  # of scalars, about the size of the error to expect, in the parameter's own units
+    likelihood: dict[str, dict[str, float]] | None  # of the values of other parameters; those that are no text as JSON
     explanation: ReferenceExplanation | None

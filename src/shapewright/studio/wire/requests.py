@@ -29,18 +29,12 @@ class Order(Struct, frozen=True, kw_only=True):
 
 
 class Evaluate(Struct, frozen=True, kw_only=True, tag_field="type", tag="evaluate"):
-    """Build a replica and measure it.
+    """Build a replica and measure it."""
 
-    id: rises from one to the next; the answers carry it.
-    slug: null for a shape alone, measured against nothing.
-    parameters: those left out are as found, or without a slug at their defaults.
-    residuals: whether to send the two surfaces with their distances.
-    """
-
-    id: int
-    slug: Slug | None = None
-    parameters: Values | None = None
-    residuals: bool = False
+    id: int  # rises from one to the next; the answers carry it
+    slug: Slug | None = None  # null for a shape alone, measured against nothing
+    parameters: Values | None = None  # those left out are as found, or without a slug at their defaults
+    residuals: bool = False  # whether to send the two surfaces with their distances
 
 
 class Visible(Struct, frozen=True, kw_only=True, tag_field="type", tag="visible"):
@@ -54,32 +48,25 @@ PageMessage: TypeAlias = Annotated[Evaluate | Visible, Meta(title="PageMessage")
 
 
 class SourceEdit(Order, frozen=True):
-    """A new text of the procedure.
-
-    digest: of the text that the edit began from; null to write over any.
-    """
+    """A new text of the procedure."""
 
     text: str
-    digest: str | None = None
+    digest: str | None = None  # of the text that the edit began from; null to write over any
 
 
 class FitOrder(Order, frozen=True):
-    """fresh: learn anew, and do not resume the run before."""
+    """Fit."""
 
-    fresh: bool = False
+    fresh: bool = False  # learn anew, and do not resume the run before
 
 
 class ExportOrder(Order, frozen=True):
-    """What to pack.
-
-    count: of random samples.
-    seed: of random samples.
-    """
+    """What to pack."""
 
     what: Annotated[list[Part], Meta(min_length=1)]
     format: ExportFormat = "glb"
-    count: Annotated[int, Meta(ge=1, le=MOST_SAMPLES)] = 50
-    seed: Annotated[int, Meta(ge=0)] = 0
+    count: Annotated[int, Meta(ge=1, le=MOST_SAMPLES)] = 50  # of random samples
+    seed: Annotated[int, Meta(ge=0)] = 0  # of random samples
 
 
 class CancelOrder(Order, frozen=True):
@@ -89,53 +76,37 @@ class CancelOrder(Order, frozen=True):
 
 
 class RestoreOrder(Order, frozen=True):
-    """Put a run's procedure back.
+    """Put a run's procedure back."""
 
-    digest: as in SourceEdit.
-    """
-
-    digest: str | None = None
+    digest: str | None = None  # as in SourceEdit
 
 
 class ApplyOrder(Order, frozen=True):
-    """Write a suggestion's procedure: beside the procedure, or in its place.
-
-    digest: as in SourceEdit.
-    """
+    """Write a suggestion's procedure: beside the procedure, or in its place."""
 
     to: Literal["copy", "procedure"]
-    digest: str | None = None
+    digest: str | None = None  # as in SourceEdit
 
 
 class Source(Struct, frozen=True, kw_only=True):
-    """A text of the procedure.
-
-    digest: of the text.
-    """
+    """A text of the procedure."""
 
     path: str
     text: str
-    digest: str
+    digest: str  # of the text
 
 
 class Written(Struct, frozen=True, kw_only=True):
-    """The procedure was written.
+    """The procedure was written."""
 
-    digest: of the new text.
-    """
-
-    digest: str
+    digest: str  # of the new text
 
 
 class Replaced(Struct, frozen=True, kw_only=True):
-    """The procedure was written.
+    """The procedure was written."""
 
-    digest: of the new text.
-    undo: the text that was there.
-    """
-
-    digest: str
-    undo: str
+    digest: str  # of the new text
+    undo: str  # the text that was there
 
 
 class Copied(Struct, frozen=True, kw_only=True):

@@ -12,56 +12,38 @@ from shapewright.studio.wire.values import Address, Slug
 
 
 class Run(Struct, frozen=True, kw_only=True):
-    """A run in short.
-
-    created: date and time, ISO 8601.
-    references: how many there are.
-    compatible: how many of them are.
-    groups: how many there are.
-    digest: of the procedure's text.
-    procedure: its name.
-    explained: it has an explanation.
-    current: it is the one that is shown.
-    """
+    """A run in short."""
 
     run: str
-    created: str
-    references: int
-    compatible: int
-    groups: int
-    digest: str
-    procedure: str
+    created: str  # date and time, ISO 8601
+    references: int  # how many there are
+    compatible: int  # how many of them are
+    groups: int  # how many there are
+    digest: str  # of the procedure's text
+    procedure: str  # its name
     seconds: float
-    explained: bool
-    current: bool
+    explained: bool  # it has an explanation
+    current: bool  # it is the one that is shown
 
 
 class RunDetail(Struct, frozen=True, kw_only=True):
-    """A whole run.
-
-    source: text of its procedure.
-    seconds: by stage.
-    validation: how well each parameter is predicted.
-    """
+    """A whole run."""
 
     run: Run
     collection: Collection
-    source: str
+    source: str  # text of its procedure
     parameters: list[Parameter]
     settings: dict[str, Any]
-    seconds: dict[str, float]
+    seconds: dict[str, float]  # by stage
     curve: list[Epoch]
-    validation: dict[str, dict[str, float | str | None]]
+    validation: dict[str, dict[str, float | str | None]]  # how well each parameter is predicted
 
 
 class Move(Struct, frozen=True, kw_only=True):
-    """A reference whose distance changed.
-
-    slug: null for one that is not in the collection any more.
-    """
+    """A reference whose distance changed."""
 
     name: str
-    slug: Slug | None
+    slug: Slug | None  # null for one that is not in the collection any more
     before: float | None
     after: float | None
     colour_before: str | None
@@ -72,26 +54,16 @@ class Move(Struct, frozen=True, kw_only=True):
 
 
 class DiffLine(Struct, frozen=True, kw_only=True):
-    """A line of two texts.
-
-    before: its number in the older one, from 1.
-    after: its number in the newer one.
-    """
+    """A line of two texts."""
 
     kind: Literal["same", "added", "removed"]
-    before: int | None
-    after: int | None
+    before: int | None  # its number in the older one, from 1
+    after: int | None  # its number in the newer one
     text: str
 
 
 class Comparison(Struct, frozen=True, kw_only=True):
-    """Two runs side by side.
-
-    same: how many references did not move.
-    added: names of references.
-    removed: names of references.
-    diff: of the procedures, whole.
-    """
+    """Two runs side by side."""
 
     before: Run
     after: Run
@@ -99,7 +71,7 @@ class Comparison(Struct, frozen=True, kw_only=True):
     lost: list[Move]
     closer: list[Move]
     further: list[Move]
-    same: int
-    added: list[str]
-    removed: list[str]
-    diff: list[DiffLine]
+    same: int  # how many references did not move
+    added: list[str]  # names of references
+    removed: list[str]  # names of references
+    diff: list[DiffLine]  # of the procedures, whole

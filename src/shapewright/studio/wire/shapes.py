@@ -19,70 +19,52 @@ Buffer: TypeAlias = Annotated[tuple[str, BufferKind, int], Meta(title="Buffer")]
 
 
 class Extent(Struct, frozen=True, kw_only=True):
-    """size: extents of a replica in the procedure's own units."""
+    """How large a replica is."""
 
-    size: list[float]
+    size: list[float]  # extents in the procedure's own units
 
 
 class ShapeMessage(Message, frozen=True, kw_only=True):
-    """A shape in the normalised frame. What follows ``shape`` is of a replica alone.
+    """A shape in the normalised frame. What follows ``shape`` is of a replica alone."""
 
-    id: of the evaluation that it answers; 0 where it answers a request of HTTP.
-    parameters: what the values that were asked for became.
-    active: parameters that matter there.
-    at_limit: parameters at an end of their Range.
-    milliseconds: what the procedure took.
-    """
-
-    id: int
+    id: int  # of the evaluation that it answers; 0 where it answers a request of HTTP
     slug: Slug | None
     shape: Side
-    parameters: Values | UnsetType = UNSET
-    active: list[str] | UnsetType = UNSET
-    at_limit: list[str] | UnsetType = UNSET
+    parameters: Values | UnsetType = UNSET  # what the values that were asked for became
+    active: list[str] | UnsetType = UNSET  # parameters that matter there
+    at_limit: list[str] | UnsetType = UNSET  # parameters at an end of their Range
     units: Extent | UnsetType = UNSET
-    milliseconds: float | UnsetType = UNSET
+    milliseconds: float | UnsetType = UNSET  # what the procedure took
 
 
 class MeshHead(ShapeMessage, frozen=True, kw_only=True, tag="mesh"):
-    """Of a binary message: positions (f32, 3 a vertex), indices (u32, 3 a triangle), labels (i32, 1 a triangle).
-
-    label_names: ``labels`` are indices into it, -1 without a label; no buffer when nothing is labelled.
-    """
+    """Of a binary message: positions (f32, 3 a vertex), indices (u32, 3 a triangle), labels (i32, 1 a triangle)."""
 
     vertices: int
     triangles: int
-    label_names: list[str]
+    label_names: list[str]  # ``labels`` are indices into it, -1 without a label; no buffer when nothing is labelled
     buffers: list[Buffer] = field(default_factory=list)
 
 
 class ResidualsHead(Message, frozen=True, kw_only=True, tag="residuals"):
-    """Of a binary message: positions, indices, colours (f32, 3 a vertex, linear light), distances (f32, 1 a vertex).
-
-    signed: distances are negative inside the other shape.
-    limit: distance at the end of the colour scale.
-    """
+    """Of a binary message: positions, indices, colours (f32, 3 a vertex, linear light), distances (f32, 1 a vertex)."""
 
     id: int
     slug: Slug | None
     shape: Side
     vertices: int
     triangles: int
-    signed: bool
-    limit: float
+    signed: bool  # distances are negative inside the other shape
+    limit: float  # distance at the end of the colour scale
     buffers: list[Buffer] = field(default_factory=list)
 
 
 class DrawingMessage(ShapeMessage, frozen=True, kw_only=True, tag="drawing"):
-    """A drawing as SVG path data, y up, to be filled by the even-odd rule.
-
-    missing: what the reference covers and the replica does not.
-    excess: what the replica covers and the reference does not.
-    """
+    """A drawing as SVG path data, y up, to be filled by the even-odd rule."""
 
     path: str
-    missing: str | None
-    excess: str | None
+    missing: str | None  # what the reference covers and the replica does not
+    excess: str | None  # what the replica covers and the reference does not
 
 
 class DistanceMessage(Message, frozen=True, kw_only=True, tag="distance"):
@@ -98,12 +80,9 @@ class DistanceMessage(Message, frozen=True, kw_only=True, tag="distance"):
 
 
 class FailedMessage(Message, frozen=True, kw_only=True, tag="failed"):
-    """There is no replica at these parameters.
-
-    active: null where that is not known.
-    """
+    """There is no replica at these parameters."""
 
     id: int
     slug: Slug | None
     problem: Problem
-    active: list[str] | None
+    active: list[str] | None  # null where that is not known

@@ -71,7 +71,7 @@ export interface Parameter {
   low: number | null;
   /** of a scalar or an integer. */
   high: number | null;
-  /** of a scalar: how many values, or which, it is sampled at; any value between is allowed. */
+  /** of a scalar: how many values, or which, it is sampled at; it may lie between. */
   steps: number | number[] | null;
   /** of a choice. */
   options: Value[] | null;

@@ -113,7 +113,7 @@ export interface Reference {
   predicted: Values | null;
   /** of scalars, about the size of the error to expect, in the parameter's own units. */
   spread: Record<string, number> | null;
-  /** of the values of other parameters; values that are no text are written as JSON. */
+  /** of the values of other parameters; those that are no text as JSON. */
   likelihood: Record<string, Record<string, number>> | null;
   explanation: ReferenceExplanation | null;
 }

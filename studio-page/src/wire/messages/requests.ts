@@ -35,7 +35,7 @@ export interface SourceEdit {
   digest?: string | null;
 }
 
-/** FitOrder */
+/** Fit. */
 export interface FitOrder {
   /** learn anew, and do not resume the run before. */
   fresh?: boolean;

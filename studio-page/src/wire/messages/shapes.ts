@@ -9,9 +9,9 @@ export type BufferKind = "f32" | "u32" | "i32";
 
 export type Buffer = [string, BufferKind, number];
 
-/** Extent */
+/** How large a replica is. */
 export interface Extent {
-  /** extents of a replica in the procedure's own units. */
+  /** extents in the procedure's own units. */
   size: number[];
 }
 
