@@ -25,40 +25,24 @@ CauseKind = Literal[
 
 @dataclass(frozen=True, eq=False)
 class Replica:
-    """A shape that stands for a reference.
+    """A shape that stands for a reference."""
 
-    Attributes:
-        row: index of the reference in its collection.
-        parameters: those that make the shape; they may lie outside the Ranges of the space.
-        mesh: the shape.
-        distance: light field distance to the reference, 0 and up.
-        field: index of the light field in which the two differ least. A search goes by it.
-    """
-
-    row: int
-    parameters: Parameters
+    row: int  # index of the reference in its collection
+    parameters: Parameters  # those that make the shape; they may lie outside the Ranges of the space
     mesh: Mesh
-    distance: float
-    field: int = 0
+    distance: float  # light field distance to the reference, 0 and up
+    field: int = 0  # index of the light field in which the two differ least: a search goes by it
 
 
 @dataclass(frozen=True)
 class Cause:
-    """Why a reference is not replicated.
-
-    Attributes:
-        kind: one of a few kinds.
-        text: the cause in words.
-        evidence: what shows it, as plain values for JSON.
-        label: of the part that it is about, None where it is about none.
-        weight: of a part: share of the surface times distance from the other surface.
-    """
+    """Why a reference is not replicated."""
 
     kind: CauseKind
-    text: str
-    evidence: Mapping[str, Any] = field(default_factory=dict)
-    label: str | None = None
-    weight: float = 0.0
+    text: str  # the cause in words
+    evidence: Mapping[str, Any] = field(default_factory=dict)  # what shows it, as plain values for JSON
+    label: str | None = None  # of the part that it is about, None where it is about none
+    weight: float = 0.0  # of a part: share of the surface times distance from the other surface
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,54 +51,28 @@ class Case:
 
     Each step of an explanation makes a case that knows more. At first all replicas are that of the iteration. For a
     compatible reference they remain so, and there are no causes.
-
-    Attributes:
-        name: of the reference.
-        row: its index in the collection.
-        reference: its shape.
-        compatible: whether the iteration's replica is.
-        replica: the iteration's replica.
-        residuals: where that differs from the reference.
-        overlay: measures how much of the surfaces lies apart.
-        nearest: the replica within the space that is nearest by the light field.
-        covering: the replica within the space whose surface has most in common with the reference's. It may be further
-            away by the light field.
-        covering_residuals: where that differs from the reference: what parameters account for least.
-        outside: the nearest replica with longer Ranges.
-        isolation: of a reference that is unlike all others, the mean distance to the nearest of them; None for any
-            other.
-        causes: the chief cause first.
     """
 
-    name: str
-    row: int
+    name: str  # of the reference
+    row: int  # its index in the collection
     reference: Mesh
-    compatible: bool
-    replica: Replica
-    residuals: Residuals
-    overlay: Overlay
-    nearest: Replica
-    covering: Replica
-    covering_residuals: Residuals
-    outside: Replica
-    isolation: float | None = None
-    causes: tuple[Cause, ...] = ()
+    compatible: bool  # whether the iteration's replica is
+    replica: Replica  # the iteration's
+    residuals: Residuals  # where that differs from the reference
+    overlay: Overlay  # measures how much of the surfaces lies apart
+    nearest: Replica  # the one within the space that is nearest by the light field
+    covering: Replica  # the one within the space whose surface has most in common; it may be further by the light field
+    covering_residuals: Residuals  # where that differs from the reference: what parameters account for least
+    outside: Replica  # the nearest one with longer Ranges
+    isolation: float | None = None  # mean distance to the nearest references, where it is unlike all others; else None
+    causes: tuple[Cause, ...] = ()  # the chief cause first
 
     @classmethod
     def of(cls, name: str, reference: Mesh, compatible: bool, replica: Replica, residuals: Residuals) -> Case:
         """A case that knows the iteration's replica only. residuals: of that replica."""
+        here = Overlay(residuals.reference)
         return cls(
-            name,
-            replica.row,
-            reference,
-            compatible,
-            replica,
-            residuals,
-            overlay=Overlay(residuals.reference),
-            nearest=replica,
-            covering=replica,
-            covering_residuals=residuals,
-            outside=replica,
+            name, replica.row, reference, compatible, replica, residuals, here, replica, replica, residuals, replica
         )
 
     @property

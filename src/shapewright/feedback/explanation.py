@@ -24,19 +24,12 @@ from shapewright.shapes import Mesh
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
-    """Everything that is said about an iteration.
+    """Everything that is said about an iteration."""
 
-    Attributes:
-        references: the case of each reference that has a replica, by its name.
-        summary: the causes that references share, the one that most share first.
-        suggestions: what to write next, the largest gain first.
-        seconds: by stage.
-    """
-
-    references: Mapping[str, Case]
-    summary: tuple[SharedCause, ...]
-    suggestions: tuple[Suggestion, ...] = ()
-    seconds: Mapping[str, float] = field(default_factory=dict)
+    references: Mapping[str, Case]  # the case of each reference that has a replica, by its name
+    summary: tuple[SharedCause, ...]  # the causes that references share, the one that most share first
+    suggestions: tuple[Suggestion, ...] = ()  # what to write next, the largest gain first
+    seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
 
 
 def explain(

@@ -39,29 +39,16 @@ _PICTURED = 3  # references in the picture of a suggestion
 
 @dataclass(frozen=True, eq=False)
 class Suggestion:
-    """A change of the author's file that makes references compatible, tried on them.
+    """A change of the author's file that makes references compatible, tried on them."""
 
-    Attributes:
-        kind: "range", "new part", "part replaced", "moved part" or "part removed".
-        title: what changes.
-        text: what changes, and for how many references.
-        snippet: new and changed definitions, to paste at the end of the file or in place of the old ones; for a Range,
-            the changed lines of the signature.
-        source: the whole changed file.
-        picture: PNG with a row for each of a few references: the reference with what it misses marked, the replica
-            before and after.
-        references: names of those that become compatible.
-        tried: what was measured.
-    """
-
-    kind: str
-    title: str
-    text: str
-    snippet: str
-    source: str
-    picture: bytes
-    references: tuple[str, ...]
-    tried: Mapping[str, Any] = field(default_factory=dict)
+    kind: str  # "range", "new part", "part replaced", "moved part" or "part removed"
+    title: str  # what changes
+    text: str  # what changes, and for how many references
+    snippet: str  # new and changed definitions, to paste into the file; for a Range, changed lines of the signature
+    source: str  # the whole changed file
+    picture: bytes  # PNG with a row for each of a few references, see ``cards.card``
+    references: tuple[str, ...]  # names of those that become compatible
+    tried: Mapping[str, Any] = field(default_factory=dict)  # what was measured
 
     @property
     def gain(self) -> int:

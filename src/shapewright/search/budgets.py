@@ -26,18 +26,12 @@ _FINE = 0.01
 
 @dataclass(frozen=True)
 class Budget:
-    """How long to search.
+    """How long to search."""
 
-    moves: the first is a Scan, but for a UseScale before it.
-    simple: this many of the first combinations are not predicted: the defaults, then those but for one choice.
-    patience: from the third round of building on, a search ends after this many rounds in a row without progress.
-    spread: standard deviation of the first random points around the best, encoded.
-    """
-
-    moves: tuple[Move, ...]
-    simple: int = 0
-    patience: int | None = None
-    spread: float = SPREAD
+    moves: tuple[Move, ...]  # the first is a Scan, but for a UseScale before it
+    simple: int = 0  # first combinations that are not predicted: the defaults, then those but for one choice
+    patience: int | None = None  # rounds in a row without progress that end a search, from the third round on
+    spread: float = SPREAD  # standard deviation of the first random points around the best, encoded
 
     @property
     def combinations(self) -> int:

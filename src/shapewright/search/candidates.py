@@ -27,26 +27,16 @@ _LOCAL = 0.1
 
 @dataclass(eq=False)
 class Candidate:
-    """One combination of discrete values: the best scalars found for it, and a linear model around them.
+    """One combination of discrete values: the best scalars found for it, and a linear model around them."""
 
-    vector: encoded (P,), where its cost is least so far.
-    surprise: what it costs that the combination is unlikely.
-    known: whether an earlier search found it.
-    spread: of random points, encoded.
-    cost: by the present part of the residual, with the surprise.
-    residual: (K,); None before it was measured.
-    slopes: (P, K), of the residual by the scalars; None before they were probed.
-    reach: how far a step may move a scalar, encoded.
-    """
-
-    vector: Floats
-    surprise: float = 0.0
-    known: bool = False
-    spread: float = SPREAD
-    cost: float = np.inf
-    residual: Floats | None = None
-    slopes: Floats | None = None
-    reach: float = REACH
+    vector: Floats  # encoded (P,), where its cost is least so far
+    surprise: float = 0.0  # what it costs that the combination is unlikely
+    known: bool = False  # whether an earlier search found it
+    spread: float = SPREAD  # of random points, encoded
+    cost: float = np.inf  # by the present part of the residual, with the surprise
+    residual: Floats | None = None  # (K,); None before it was measured
+    slopes: Floats | None = None  # (P, K), of the residual by the scalars; None before they were probed
+    reach: float = REACH  # how far a step may move a scalar, encoded
 
     def cost_of(self, residual: Floats, part: slice) -> float:
         """What a residual (K,) of this combination costs by one part."""

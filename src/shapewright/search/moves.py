@@ -20,83 +20,58 @@ STEPS = 2
 
 @dataclass(frozen=True)
 class Scan:
-    """Build combinations of choices that were not built yet, with their scalars unchanged.
+    """Build combinations of choices that were not built yet, with their scalars unchanged."""
 
-    combinations: how many, the likeliest first.
-    """
-
-    combinations: int
+    combinations: int  # how many, the likeliest first
 
 
 @dataclass(frozen=True)
 class Probe:
-    """Move each scalar of the best combinations a little, which gives a linear model of the residuals.
+    """Move each scalar of the best combinations a little, which gives a linear model of the residuals."""
 
-    combinations: how many of the best.
-    size: how far each scalar is moved, encoded.
-    both: to both sides, for a model that is exact enough for the search to end at the least cost.
-    again: also where there is a model, because it has aged.
-    rival: only combinations whose cost is at most this many times the best's.
-    """
-
-    combinations: int
-    size: float = PROBE
-    both: bool = False
-    again: bool = False
-    rival: float = np.inf
+    combinations: int  # how many of the best
+    size: float = PROBE  # how far each scalar is moved, encoded
+    both: bool = False  # to both sides, for a model that is exact enough for the search to end at the least cost
+    again: bool = False  # also where there is a model, because it has aged
+    rival: float = np.inf  # only combinations whose cost is at most this many times the best's
 
 
 @dataclass(frozen=True)
 class Step:
-    """Follow the models of the best combinations, and scatter random points around their best.
+    """Follow the models of the best combinations, and scatter random points around their best."""
 
-    combinations: how many of the best.
-    steps: shapes along the model of each, each step shorter than the one before.
-    scatter: random points around the best of each, which keep it from resting in kinks.
-    rival: only combinations whose cost is at most this many times the best's.
-    near: only for references that are incompatible, at a cost of at most this many times the goal.
-    """
-
-    combinations: int
-    steps: int = STEPS
-    scatter: int = 0
-    rival: float = np.inf
-    near: float | None = None
+    combinations: int  # how many of the best
+    steps: int = STEPS  # shapes along the model of each, each step shorter than the one before
+    scatter: int = 0  # random points around the best of each, which keep it from resting in kinks
+    rival: float = np.inf  # only combinations whose cost is at most this many times the best's
+    near: float | None = None  # only for incompatible references, at a cost of at most this many times the goal
 
 
 @dataclass(frozen=True)
 class SwitchChoices:
     """Go on from other choices, while the best combination rests until it returns.
 
-    to: "single" for the combinations that differ from the best one in one choice; "likely" for these and the likeliest
-        ones; "defaults" for these of one choice and the best one, all with their scalars at the defaults.
-    scale: of the residuals, by which they are compared, see ``UseScale``; by default the present one.
+    "single" are the combinations that differ from the best one in one choice. "likely" are these and the likeliest
+    ones; "defaults" are the single ones and the best one, all with their scalars at the defaults.
     """
 
     to: Literal["single", "likely", "defaults"]
-    scale: int | None = None
+    scale: int | None = None  # of the residuals, by which they are compared, see ``UseScale``; by default the present
 
 
 @dataclass(frozen=True)
 class Return:
-    """Let the best combination, which has rested, come back beside the best of the others.
+    """Let the best combination, which has rested, come back beside the best of the others."""
 
-    keep: how many of the others.
-    """
-
-    keep: int
+    keep: int  # how many of the others
 
 
 @dataclass(frozen=True)
 class UseScale:
-    """Go by another part of the residuals; models are kept. At the last scale the best combination returns, too.
+    """Go by another part of the residuals; models are kept. At the last scale the best combination returns, too."""
 
-    scale: index of the part, coarse to fine; the last where there are fewer.
-    keep: how many combinations go on, the best by the scale before.
-    """
-
-    scale: int
-    keep: int
+    scale: int  # index of the part, coarse to fine; the last where there are fewer
+    keep: int  # how many combinations go on, the best by the scale before
 
 
 BuildingMove: TypeAlias = Scan | Probe | Step

@@ -39,18 +39,12 @@ def measure_of(objectives: Sequence[Objective | None], threads: int | None = Non
 class Criterion:
     """What a search for several references makes small, and how far.
 
-    The cost of a replica is the sum of absolute values of its residual, or of a part of it.
-
-    measure: the residuals of replicas.
-    parts: of the residuals, coarse to fine, that moves may go by; the whole by default.
-    goal: the cost up to which a reference is surely compatible; -inf where costs do not tell.
-    enough: a cost, by the last part, at which the search for a reference ends.
-    surprise_cost: how much a cost rises with minus the logarithm of the probability of the choices: of those that look
-        alike the likelier wins.
+    The cost of a replica is the sum of absolute values of its residual, or of a part of it. It rises with minus the
+    logarithm of the probability of the choices: of those that look alike the likelier wins.
     """
 
-    measure: Measure
-    parts: Sequence[slice] = (slice(None),)
-    goal: float = -math.inf
-    enough: float = -math.inf
-    surprise_cost: float = 0.0
+    measure: Measure  # the residuals of replicas
+    parts: Sequence[slice] = (slice(None),)  # of the residuals, coarse to fine, that moves may go by
+    goal: float = -math.inf  # the cost up to which a reference is surely compatible; -inf where costs do not tell
+    enough: float = -math.inf  # a cost, by the last part, at which the search for a reference ends
+    surprise_cost: float = 0.0  # by how much it rises

@@ -34,40 +34,28 @@ _LIKELIEST = 4
 class SearchStart:
     """Where the searches for N references begin, and where they may go.
 
-    prediction: for the references.
-    known: for each reference parameters to start from as well, or None.
-    new: names of scalars that are new or other than when the known ones were searched for; with it, no more is spent
-        where these turn out the best and none is new.
-    within: the least and the greatest encoded scalars of each reference, (N, P); the whole space by default.
+    With ``new`` a search ends where the known parameters turn out the best and nothing new matters there.
     """
 
     prediction: Prediction
-    known: Sequence[Parameters | None] | None = None
-    new: AbstractSet[str] | None = None
-    within: tuple[Floats, Floats] | None = None
+    known: Sequence[Parameters | None] | None = None  # for each reference parameters to start from as well, or None
+    new: AbstractSet[str] | None = None  # scalars that are new or other than when the known ones were searched for
+    within: tuple[Floats, Floats] | None = None  # the least and the greatest encoded scalars of each reference, (N, P)
 
 
 @dataclass(eq=False)
 class _Search:
-    """The search for one reference.
+    """The search for one reference."""
 
-    row: of the reference in the prediction.
-    candidates: those that take part.
-    part: of the residuals, by which they are compared.
-    best: parameters of the least cost by the present part; None before any shape was measured.
-    resting: the best candidate, while others are tried.
-    idle: rounds in a row without progress.
-    """
-
-    row: int
-    candidates: list[Candidate]
+    row: int  # of the reference in the prediction
+    candidates: list[Candidate]  # those that take part
     bounds: Bounds
     rng: np.random.Generator
-    part: slice
-    best: Parameters | None = None
+    part: slice  # of the residuals, by which they are compared
+    best: Parameters | None = None  # of the least cost by the present part; None before any shape was measured
     cost: float = np.inf
-    resting: Candidate | None = None
-    idle: int = 0
+    resting: Candidate | None = None  # the best candidate, while others are tried
+    idle: int = 0  # rounds in a row without progress
     done: bool = False
 
     def sort(self) -> None:

@@ -21,17 +21,11 @@ _SHAPES = 600  # built for all references together, at most about
 
 @dataclass(frozen=True)
 class Leaning:
-    """A part that leans.
+    """A part that leans."""
 
-    Attributes:
-        label: of the part.
-        factor: width of its foot, in units of its head's.
-        apart: how much of the surfaces lies apart then, see ``placement.Overlay``.
-    """
-
-    label: str
-    factor: float
-    apart: float
+    label: str  # of the part
+    factor: float  # width of its foot, in units of its head's
+    apart: float  # how much of the surfaces lies apart then, see ``placement.Overlay``
 
 
 def leaning(

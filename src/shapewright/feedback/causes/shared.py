@@ -23,21 +23,13 @@ _STRUCTURE = ("missing part", "surplus part", "wrong form")
 
 @dataclass(frozen=True)
 class SharedCause:
-    """A cause that references share.
+    """A cause that references share."""
 
-    Attributes:
-        kind: of the cause.
-        text: the cause, and how many references share it.
-        references: their names.
-        representative: the most typical of them; of a Range, the one that is furthest outside.
-        outside: of a Range: the parameter, the value of the representative and the end of the Range.
-    """
-
-    kind: CauseKind
-    text: str
-    references: tuple[str, ...]
-    representative: str
-    outside: Excess | None = None
+    kind: CauseKind  # of the cause
+    text: str  # the cause, and how many references share it
+    references: tuple[str, ...]  # their names
+    representative: str  # the most typical of them; of a Range, the one that is furthest outside
+    outside: Excess | None = None  # of a Range: the parameter, the value of the representative and the end of the Range
 
 
 def shared_causes(space: ParameterSpace, cases: Sequence[Case]) -> list[SharedCause]:

@@ -23,27 +23,16 @@ _LOOSE = 1500.0  # the same of each piece that hangs in the air
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
-    """A change of a replica.
+    """A change of a replica."""
 
-    Attributes:
-        removed: labels of the parts that are taken away.
-        inset: labels of the parts that are drawn towards the middle.
-        splayed: labels of the parts that are drawn so at their low end only.
-        scale: factors along x and z of what is drawn.
-        pieces: what is put in, in the replica's units.
-        cost: of the changed replica.
-        before: cost of the replica.
-        loose: number of the pieces that hang in the air.
-    """
-
-    removed: tuple[str, ...] = ()
-    inset: tuple[str, ...] = ()
-    splayed: tuple[str, ...] = ()
-    scale: tuple[float, float] = (1.0, 1.0)
-    pieces: tuple[Piece, ...] = ()
-    cost: float = np.inf
-    before: float = np.inf
-    loose: int = 0
+    removed: tuple[str, ...] = ()  # labels of the parts that are taken away
+    inset: tuple[str, ...] = ()  # labels of the parts that are drawn towards the middle
+    splayed: tuple[str, ...] = ()  # labels of the parts that are drawn so at their low end only
+    scale: tuple[float, float] = (1.0, 1.0)  # factors along x and z of what is drawn
+    pieces: tuple[Piece, ...] = ()  # what is put in, in the replica's units
+    cost: float = np.inf  # of the changed replica
+    before: float = np.inf  # cost of the replica
+    loose: int = 0  # number of the pieces that hang in the air
 
     @property
     def score(self) -> float:

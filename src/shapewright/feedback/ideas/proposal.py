@@ -21,21 +21,13 @@ _LEAST_WAY = 0.05  # of the threshold: nearer shapes are as good as compatible
 
 @dataclass(frozen=True, eq=False)
 class Misfit:
-    """A reference that is not replicated, and what could be changed for it.
+    """A reference that is not replicated, and what could be changed for it."""
 
-    Attributes:
-        covering: the replica within the space whose surface has most in common with the reference's.
-        nearest: the replica within the space that is nearest by the light field.
-        outside: the nearest replica with longer Ranges.
-        hypotheses: the best first.
-        goal: the cost of a replica that may well be compatible.
-    """
-
-    covering: Replica
-    nearest: Replica
-    outside: Replica
-    hypotheses: tuple[Hypothesis, ...] = ()
-    goal: float = THRESHOLD * RAW_SCALE
+    covering: Replica  # the replica within the space whose surface has most in common with the reference's
+    nearest: Replica  # the replica within the space that is nearest by the light field
+    outside: Replica  # the nearest replica with longer Ranges
+    hypotheses: tuple[Hypothesis, ...] = ()  # the best first
+    goal: float = THRESHOLD * RAW_SCALE  # the cost of a replica that may well be compatible
 
     @property
     def row(self) -> int:
@@ -60,27 +52,16 @@ class Misfit:
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """A change to try.
+    """A change to try."""
 
-    Attributes:
-        kind: see ``suggestions.Suggestion``.
-        title: what changes.
-        write: makes the changed source, given Ranges.
-        ranges: wide ones to begin with.
-        starts: values of the new parameters by row of a misfit; others start at the medians.
-        worth: how many references it may help, roughly.
-        rule: of a new or changed part; None for a wider Range.
-        ends: of the Ranges that are wider.
-    """
-
-    kind: str
-    title: str
-    write: Callable[[Ranges], str]
-    ranges: Ranges
-    starts: Mapping[int, Parameters]
-    worth: float
-    rule: Rule | None = None
-    ends: tuple[End, ...] = ()
+    kind: str  # see ``suggestions.Suggestion``
+    title: str  # what changes
+    write: Callable[[Ranges], str]  # makes the changed source, given Ranges
+    ranges: Ranges  # wide ones to begin with
+    starts: Mapping[int, Parameters]  # values of the new parameters by row of a misfit; others start at the medians
+    worth: float  # how many references it may help, roughly
+    rule: Rule | None = None  # of a new or changed part; None for a wider Range
+    ends: tuple[End, ...] = ()  # of the Ranges that are wider
 
     def candidates(self, misfit: Misfit) -> list[Parameters]:
         """Where a search may begin for a misfit."""

@@ -39,27 +39,17 @@ class Piece:
     """A primitive that fills a box.
 
     Spokes are bars from the vertical axis of the box outwards to the ellipse that touches its sides.
-
-    Attributes:
-        kind: which primitive.
-        low, high: (3,), corners of the box.
-        mirrored: whether it stands once more on the other side of the middle, along x and along z.
-        middle: x and z of the planes about which it is mirrored.
-        count: of the slats or spokes.
-        gap: between slats, as a part of the whole.
-        breadth: of spokes, as a part of the whole.
-        turn: degrees from x to a spoke.
     """
 
     kind: Kind
-    low: Floats
-    high: Floats
-    mirrored: tuple[bool, bool] = (False, False)
-    middle: tuple[float, float] = (0.0, 0.0)
-    count: int = 1
-    gap: float = 0.0
-    breadth: float = 0.0
-    turn: float = 0.0
+    low: Floats  # (3,), the corner of the box with the least coordinates
+    high: Floats  # (3,), the one with the greatest
+    mirrored: tuple[bool, bool] = (False, False)  # whether it also stands beyond the middle, along x and along z
+    middle: tuple[float, float] = (0.0, 0.0)  # x and z of the planes about which it is mirrored
+    count: int = 1  # of the slats or spokes
+    gap: float = 0.0  # between slats, as a part of the whole
+    breadth: float = 0.0  # of spokes, as a part of the whole
+    turn: float = 0.0  # degrees from x to a spoke
 
     @property
     def size(self) -> Floats:

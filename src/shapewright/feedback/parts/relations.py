@@ -17,6 +17,8 @@ NEW = "new "
 INNER = "inner "
 """Before these, of pieces that stand on both sides: the box between the copies."""
 Frames = Mapping[str, Floats]
+Ends = tuple[tuple[str, int], tuple[str, int]]
+"""The two sides that a piece reaches from and to, each as (frame, 0 for its low or 1 for its high side)."""
 
 # Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _TOUCHING = 0.5  # share of the misfits whose pieces have to touch a side
@@ -30,23 +32,14 @@ _THIN = 0.4  # of a piece's own size: sides further off are not its own, however
 
 @dataclass(frozen=True)
 class Along:
-    """A piece along one axis of a frame.
+    """A piece along one axis of a frame."""
 
-    Attributes:
-        size: "full" or "free".
-        place: how it stands in the frame: "middle", "low", "high", "on", "under" or "free".
-        ratios: sizes in units of the frame, one a misfit.
-        offsets: places in units of the frame, one a misfit.
-        ends: where it reaches from and to, as (frame, 0 for its low or 1 for its high side); None for the frame itself.
-        unlike: share of the misfits that do not agree with the place.
-    """
-
-    size: str
-    place: str
-    ratios: Floats
-    offsets: Floats
-    ends: tuple[tuple[str, int], tuple[str, int]] | None = None
-    unlike: float = 0.0
+    size: str  # "full" or "free"
+    place: str  # how it stands in the frame: "middle", "low", "high", "on", "under" or "free"
+    ratios: Floats  # sizes in units of the frame, one a misfit
+    offsets: Floats  # places in units of the frame, one a misfit
+    ends: Ends | None = None  # where it reaches from and to; None for the frame itself
+    unlike: float = 0.0  # share of the misfits that do not agree with the place
 
     @property
     def free(self) -> float:
@@ -105,7 +98,7 @@ def _along(several: Sequence[Piece], frames: Sequence[Frames], frame: str, share
 
 def _ends(
     low: Floats, high: Floats, frames: Sequence[Frames], axis: int, slack: Floats, shared: Sequence[str]
-) -> tuple[tuple[str, int], tuple[str, int]] | None:
+) -> Ends | None:
     """The sides of parts that pieces reach from and to, where these are two different ones.
 
     A piece between the copies of another reaches from the outer side of one to that of the other, so that they meet.

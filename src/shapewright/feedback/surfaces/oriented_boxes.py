@@ -17,17 +17,11 @@ _THIN = 0.01  # added to every side, so that flat sets of points have a volume
 
 @dataclass(frozen=True, eq=False)
 class OrientedBox:
-    """A box that may be turned.
+    """A box that may be turned."""
 
-    Attributes:
-        centre: (3,).
-        size: (3,), along its axes.
-        axes: (3, 3), whose rows are unit vectors: the first nearest to X, and so on.
-    """
-
-    centre: Floats
-    size: Floats
-    axes: Floats
+    centre: Floats  # (3,)
+    size: Floats  # (3,), along its axes
+    axes: Floats  # (3, 3), whose rows are unit vectors: the first nearest to X, and so on
 
 
 def fit_box(points: Floats) -> OrientedBox:

@@ -25,15 +25,10 @@ _SCALES = (0.4, 2.5)  # of a replica: another is not laid over its reference
 
 @dataclass(frozen=True)
 class Fit:
-    """How one bounding box is laid over another.
+    """How one bounding box is laid over another."""
 
-    Attributes:
-        axis: along which both are made equally long; None leaves them as they are normalised.
-        anchors: per axis what coincides: the lower sides at 0, the upper ones at 1.
-    """
-
-    axis: int | None = None
-    anchors: tuple[float, float, float] = (0.5, 0.5, 0.5)
+    axis: int | None = None  # along which both are made equally long; None leaves them as they are normalised
+    anchors: tuple[float, float, float] = (0.5, 0.5, 0.5)  # per axis what coincides: lower sides at 0, upper ones at 1
 
     def transform(self, theirs: Floats, ours: Floats) -> Transform:
         """The transform of ours, given both bounds, (2, 3)."""

@@ -18,22 +18,14 @@ _MOST = 32  # cells along an axis
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Points of a surface by cell.
+    """Points of a surface by cell."""
 
-    Attributes:
-        points, normals: (N, 3).
-        starts: (cells + 1,), the first point of each cell.
-        low: (3,), the corner of the first cell.
-        side: of a cell.
-        shape: (3,), cells along each axis.
-    """
-
-    points: Floats
-    normals: Floats
-    starts: Ints
-    low: Floats
-    side: float
-    shape: Ints
+    points: Floats  # (N, 3), in the order of their cells
+    normals: Floats  # (N, 3)
+    starts: Ints  # (cells + 1,), the first point of each cell
+    low: Floats  # (3,), the corner of the first cell
+    side: float  # of a cell
+    shape: Ints  # (3,), cells along each axis
 
     @classmethod
     def of(cls, points: Floats, normals: Floats) -> Cells:

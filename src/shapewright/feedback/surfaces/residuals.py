@@ -32,26 +32,16 @@ class Region:
 
     All lengths are in units of the reference's largest extent. All places are in the frame of the normalised reference
     (Y up, front towards +Z, bounding box centred).
-
-    Attributes:
-        side: "unexplained", of the reference; "surplus", of the replica.
-        points: (N, 3), spread evenly over it.
-        box: around it.
-        share: of that side's visible surface, 0 to 1.
-        distance: mean, to the other surface.
-        label: of the replica's part that it lies on or is nearest to, None where that has none.
-        rule: of the grammar that made that part, None where there is none.
-        rows: of that side's ``VisibleSurface``.
     """
 
-    side: RegionSide
-    points: Floats
-    box: OrientedBox
-    share: float
-    distance: float
-    label: str | None
-    rule: str | None
-    rows: Ints
+    side: RegionSide  # "unexplained", of the reference; "surplus", of the replica
+    points: Floats  # (N, 3), spread evenly over it
+    box: OrientedBox  # around it
+    share: float  # of that side's visible surface, 0 to 1
+    distance: float  # mean, to the other surface
+    label: str | None  # of the replica's part that it lies on or is nearest to, None where that has none
+    rule: str | None  # of the grammar that made that part, None where there is none
+    rows: Ints  # of that side's ``VisibleSurface``
 
     @property
     def weight(self) -> float:
@@ -61,24 +51,15 @@ class Region:
 
 @dataclass(frozen=True, eq=False)
 class Residuals:
-    """How far two surfaces are from each other, and where.
+    """How far two surfaces are from each other, and where."""
 
-    Attributes:
-        regions: the weightiest first.
-        placement: takes units of the replica's mesh to the frame of the normalised reference.
-        mesh: the replica as it was given.
-        reference, replica: their surfaces in that frame.
-        to_replica: (N,), distances of the reference's points to the replica, in units of the reference's extent.
-        to_reference: (M,), the same of the replica's points.
-    """
-
-    regions: tuple[Region, ...]
-    placement: Transform
-    mesh: Mesh
+    regions: tuple[Region, ...]  # the weightiest first
+    placement: Transform  # takes units of the replica's mesh to the frame of the normalised reference
+    mesh: Mesh  # the replica as it was given
     reference: VisibleSurface
-    replica: VisibleSurface
-    to_replica: Floats
-    to_reference: Floats
+    replica: VisibleSurface  # in the reference's frame
+    to_replica: Floats  # (N,), distances of the reference's points to the replica, in units of the reference's extent
+    to_reference: Floats  # (M,), the same of the replica's points
 
     def __iter__(self) -> Iterator[Region]:
         return iter(self.regions)

@@ -29,21 +29,13 @@ _REACH = 1.0  # spacings around a point within which its tangent plane stands fo
 
 @dataclass(frozen=True, eq=False)
 class VisibleSurface:
-    """Points spread evenly over a mesh's surface. Units are those of the mesh.
+    """Points spread evenly over a mesh's surface. Units are those of the mesh."""
 
-    Attributes:
-        points: (N, 3).
-        normals: (N, 3), of either orientation.
-        faces: (N,), the face that each point lies on.
-        visible: (N,), whether some view from outside shows it.
-        area: of the surface that can be seen.
-    """
-
-    points: Floats
-    normals: Floats
-    faces: Ints
-    visible: NDArray[np.bool_]
-    area: float
+    points: Floats  # (N, 3)
+    normals: Floats  # (N, 3), of either orientation
+    faces: Ints  # (N,), the face that each point lies on
+    visible: NDArray[np.bool_]  # (N,), whether some view from outside shows it
+    area: float  # of the surface that can be seen
 
     @classmethod
     def of(cls, mesh: Mesh, count: int = SAMPLES, seed: int = 0) -> VisibleSurface:

@@ -23,18 +23,12 @@ _DOT = 2  # pixels around a point that are marked
 
 @dataclass(frozen=True, eq=False)
 class Example:
-    """One row of a picture.
-
-    Attributes:
-        reference: its shape.
-        marked: points (N, 3) of the normalised reference that the replica before does not come near.
-        before, after: its replicas by the procedure as it is, and by the changed one.
-    """
+    """One row of a picture."""
 
     reference: Mesh
-    marked: Floats
-    before: Mesh
-    after: Mesh
+    marked: Floats  # points (N, 3) of the normalised reference that the replica before does not come near
+    before: Mesh  # the replica by the procedure that is there
+    after: Mesh  # the one by the changed procedure
 
 
 def card(examples: Sequence[Example], size: int = SIZE) -> bytes:

@@ -17,17 +17,11 @@ PROMISING = 1.7
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """Replicas that a changed procedure makes.
+    """Replicas that a changed procedure makes."""
 
-    Attributes:
-        replicas: by the row of their reference.
-        counted: rows of the replicas that count. From the others a search may begin all the same.
-        threshold: the distance up to which a replica is compatible.
-    """
-
-    replicas: Mapping[int, Replica]
-    counted: tuple[int, ...]
-    threshold: float
+    replicas: Mapping[int, Replica]  # by the row of their reference
+    counted: tuple[int, ...]  # rows of the replicas that count. From the others a search may begin all the same.
+    threshold: float  # the distance up to which a replica is compatible
 
     @classmethod
     def of(cls, replicas: Iterable[Replica], threshold: float) -> Outcome:

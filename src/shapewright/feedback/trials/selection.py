@@ -52,19 +52,12 @@ _CLOSE = 0.4  # of the threshold: how near longer Ranges should come, so that th
 
 @dataclass(frozen=True, eq=False)
 class Change:
-    """A proposal that is tried.
-
-    Attributes:
-        proposal: what is tried.
-        ranges: those that the references need.
-        source: the changed source, with these Ranges.
-        outcome: what it gives for the references.
-    """
+    """A proposal that is tried."""
 
     proposal: Proposal
-    ranges: Ranges
-    source: str
-    outcome: Outcome
+    ranges: Ranges  # those that the references need
+    source: str  # the changed source, with these Ranges
+    outcome: Outcome  # what it gives for the references
 
     @property
     def value(self) -> float:
@@ -84,19 +77,12 @@ class _Prospect:
 
 @dataclass(frozen=True, eq=False)
 class _Trials:
-    """What proposals are tried with.
+    """What proposals are tried with."""
 
-    Attributes:
-        space: of the procedure without any change.
-        crew: workers that turn to one changed procedure after the other.
-        misfits: the references that need a change.
-        judge: measures replicas.
-    """
-
-    space: ParameterSpace
-    crew: Workers
-    misfits: Sequence[Misfit]
-    judge: Judge
+    space: ParameterSpace  # of the procedure without any change
+    crew: Workers  # workers that turn to one changed procedure after the other
+    misfits: Sequence[Misfit]  # the references that need a change
+    judge: Judge  # measures replicas
 
 
 def selected(
