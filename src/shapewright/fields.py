@@ -13,21 +13,13 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Within:
-    """Bounds of a number, in an annotation: ``Annotated[int, Within(least=20), "What it is."]``.
+    """Bounds of a number, in an annotation: ``Annotated[int, Within(least=20), "What it is."]``."""
 
-    Attributes:
-        least: the smallest value.
-        most: the largest value.
-        above: the value is greater than this one.
-        below: the value is less than this one.
-        step: the value is a multiple of this one.
-    """
-
-    least: float | None = None
-    most: float | None = None
-    above: float | None = None
-    below: float | None = None
-    step: int | None = None
+    least: float | None = None  # the smallest value
+    most: float | None = None  # the largest value
+    above: float | None = None  # the value is greater than this one
+    below: float | None = None  # the value is less than this one
+    step: int | None = None  # the value is a multiple of this one
 
     def __contains__(self, value: float) -> bool:
         return (
@@ -47,27 +39,16 @@ class Within:
 
 @dataclass(frozen=True)
 class Field:
-    """What a field may be.
-
-    Attributes:
-        name: of the field.
-        kind: the type of its values.
-        default: its value where none is given.
-        help: what it is, in one sentence.
-        choices: the values that it may have, where these are words.
-        within: bounds of a number, or of each number of a tuple.
-        length: how many numbers a tuple has.
-        optional: whether it may be None.
-    """
+    """What a field may be."""
 
     name: str
     kind: type[bool | int | float | str | tuple[float, ...]]
-    default: Any
-    help: str
-    choices: tuple[str, ...] = ()
-    within: Within = Within()
-    length: int = 0
-    optional: bool = False
+    default: Any  # its value where none is given
+    help: str  # what it is, in one sentence
+    choices: tuple[str, ...] = ()  # the values that it may have, where these are words
+    within: Within = Within()  # bounds of a number, or of each number of a tuple
+    length: int = 0  # how many numbers a tuple has
+    optional: bool = False  # whether it may be None
 
     @property
     def allowed(self) -> str:

@@ -28,19 +28,12 @@ CAMERAS: tuple[Cameras, ...] = get_args(Cameras)
 
 @dataclass(frozen=True)
 class Evaluation:
-    """One training, measured on held-out samples, none of which it has seen.
+    """One training, measured on held-out samples, none of which it has seen."""
 
-    Attributes:
-        settings: of the training, its seed among them.
-        metrics: of the network alone, by parameter; see ``prediction.inference.score``.
-        refined: of parameters after the search, on the first held-out samples; None where the search is off.
-        seconds: that the training took, building samples included.
-    """
-
-    settings: Settings
-    metrics: Metrics
-    refined: Metrics | None
-    seconds: float
+    settings: Settings  # of the training, its seed among them
+    metrics: Metrics  # of the network alone, by parameter; see ``prediction.inference.score``
+    refined: Metrics | None  # of parameters after the search, on the first held-out samples; None where it is off
+    seconds: float  # that the training took, building samples included
 
 
 def evaluate(

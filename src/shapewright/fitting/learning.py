@@ -34,21 +34,13 @@ FIRST = 256
 
 @dataclass(frozen=True, eq=False)
 class Lesson:
-    """What was learned of a procedure.
+    """What was learned of a procedure."""
 
-    Attributes:
-        predictor: the trained one.
-        training: the samples that it learned from.
-        validation: the samples that its spreads were calibrated on.
-        held_out: the samples that it was measured on.
-        facts: what a run records of the samples and of the training.
-    """
-
-    predictor: Predictor
-    training: Dataset
-    validation: Dataset
-    held_out: Dataset
-    facts: dict[str, Any]
+    predictor: Predictor  # the trained one
+    training: Dataset  # the samples that it learned from
+    validation: Dataset  # the samples that its spreads were calibrated on
+    held_out: Dataset  # the samples that it was measured on
+    facts: dict[str, Any]  # what a run records of the samples and of the training
 
     def budget(self, settings: Searching) -> Budget:
         """How long to refine: what the settings say, or less where a shape takes long to build."""

@@ -23,17 +23,11 @@ _NEAR = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Replicas:
-    """The nearest build so far for each of N references.
+    """The nearest build so far for each of N references."""
 
-    Attributes:
-        builds: None where nothing was tried yet.
-        distances: by the judge, (N,); NaN where there is nothing to measure.
-        fields: the light field in which the two differ least, (N,).
-    """
-
-    builds: tuple[Build | None, ...]
-    distances: Floats
-    fields: Ints
+    builds: tuple[Build | None, ...]  # None where nothing was tried yet
+    distances: Floats  # by the judge, (N,); NaN where there is nothing to measure
+    fields: Ints  # the light field in which the two differ least, (N,)
 
     @classmethod
     def none(cls, count: int) -> Replicas:

@@ -37,19 +37,12 @@ _MEASURES = tuple(field.name for field in fields(Soundness))
 
 @dataclass(frozen=True)
 class Samples:
-    """What a folder of samples holds.
+    """What a folder of samples holds."""
 
-    Attributes:
-        shapes: number of files.
-        unsound: number of shapes that are not sound.
-        failed: number of vectors without a shape.
-        failures: why, in words.
-    """
-
-    shapes: int
-    unsound: int
-    failed: int
-    failures: str
+    shapes: int  # number of files
+    unsound: int  # number of shapes that are not sound
+    failed: int  # number of vectors without a shape
+    failures: str  # why, in words
 
 
 def sample(

@@ -17,20 +17,14 @@ from shapewright.runs.iteration import Iteration
 class Start:
     """Where a fit starts.
 
-    Attributes:
-        references: those to fit.
-        resumed: whether there is an earlier iteration.
-        known: the parameters that it found for each reference, in the present space; None where it did not have one.
-        predictor: the one that it trained.
-        new: names of scalars that it did not have, or not in this Range; None where it did not search. Of other kinds
-            all likely values are tried anyway.
+    ``new`` names no parameters of other kinds than scalars: of those all likely values are tried anyway.
     """
 
-    references: Collection
-    resumed: bool
-    known: tuple[Parameters | None, ...]
-    predictor: Predictor | None
-    new: frozenset[str] | None
+    references: Collection  # those to fit
+    resumed: bool  # whether there is an earlier iteration
+    known: tuple[Parameters | None, ...]  # found by it for each reference, in the present space; None for a new one
+    predictor: Predictor | None  # the one that it trained
+    new: frozenset[str] | None  # scalars that it did not have, or not in this Range; None where it did not search
 
     @classmethod
     def of(cls, references: Collection, space: ParameterSpace, previous: Iteration | None) -> Start:

@@ -22,23 +22,14 @@ Classifier = Callable[[Floats, NDArray[np.bool_], Floats], NDArray[np.bool_]]
 
 @dataclass(frozen=True)
 class Calibration:
-    """What marks say.
+    """What marks say; accuracies are shares of marks judged right, None where there are too few to measure them."""
 
-    threshold: of the light-field distance.
-    accuracy: share of marks that a threshold gets right that is fitted to other marks (cross-validation); None where
-        either kind has fewer than 2 marks.
-    metric: learned from all measures; None where there are too few marks, or where it is no better than the threshold.
-    metric_accuracy: share of marks that such a metric gets right, cross-validated as well; None for too few marks.
-    marks: how many there are.
-    default_accuracy: share of marks that the default threshold gets right; None without marks.
-    """
-
-    threshold: float
-    accuracy: float | None
-    metric: Weights | None
-    metric_accuracy: float | None
-    marks: int
-    default_accuracy: float | None
+    threshold: float  # of the light-field distance
+    accuracy: float | None  # of thresholds fitted to other marks (cross-validation); it takes 2 marks of either kind
+    metric: Weights | None  # of all measures; None for too few marks, or where it is no better than the threshold
+    metric_accuracy: float | None  # of such metrics, cross-validated as well
+    marks: int  # how many there are
+    default_accuracy: float | None  # of the default threshold
 
 
 def calibrate(measures: Sequence[Mapping[str, float]], same: Sequence[bool], seed: int = 0) -> Calibration:

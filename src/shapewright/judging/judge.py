@@ -32,16 +32,11 @@ def target_of(shape: Shape, settings: Settings, cache: Path | None = None) -> Ta
 
 @dataclass(frozen=True, eq=False)
 class Judge:
-    """Measures replicas against the references of one collection, on several threads.
+    """Measures replicas against the references of one collection, on several threads."""
 
-    references: at least one.
-    targets: one for each reference.
-    settings: threads, and what the targets were made with.
-    """
-
-    references: Collection
-    targets: tuple[Target, ...]
-    settings: Settings
+    references: Collection  # at least one
+    targets: tuple[Target, ...]  # one for each reference
+    settings: Settings  # threads, and what the targets were made with
 
     @classmethod
     def of(cls, references: Collection, settings: Settings, cache: Path | None = None) -> Judge:

@@ -12,18 +12,12 @@ FAR = 2.5
 
 @dataclass(frozen=True)
 class Metric:
-    """A distance and its threshold, for a run's record.
+    """A distance and its threshold, for a run's record."""
 
-    name: of the distance.
-    threshold: the largest distance of a compatible reference.
-    far: the distance from which on shapes have nothing in common; the end of the colours in reports.
-    criterion: when a reference is compatible, in words.
-    """
-
-    name: str
-    threshold: float
-    far: float
-    criterion: str
+    name: str  # of the distance
+    threshold: float  # the largest distance of a compatible reference
+    far: float  # the distance from which on shapes have nothing in common; the end of the colours in reports
+    criterion: str  # when a reference is compatible, in words
 
     @classmethod
     def of_record(cls, record: Mapping[str, Any]) -> Metric:

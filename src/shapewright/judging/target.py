@@ -16,18 +16,12 @@ from shapewright.shapes import Shape
 
 @dataclass(frozen=True)
 class Measures:
-    """How a replica differs from its reference; NaN for what cannot be measured.
+    """How a replica differs from its reference; NaN for what cannot be measured."""
 
-    distance: by which it is judged: the normalised light-field distance of meshes, 1 - VIF of drawings; 0 is equal.
-    iou: intersection over union, of silhouettes or of areas, 0 to 1.
-    chamfer: Chamfer distance of surfaces, in units of the largest extent; of meshes only.
-    depth: difference of depth pictures, 0 to 1; of meshes only.
-    """
-
-    distance: float = math.nan
-    iou: float = math.nan
-    chamfer: float = math.nan
-    depth: float = math.nan
+    distance: float = math.nan  # normalised light-field distance of meshes, 1 - VIF of drawings; 0 is equal
+    iou: float = math.nan  # intersection over union, of silhouettes or of areas, 0 to 1
+    chamfer: float = math.nan  # Chamfer distance of surfaces, in units of the largest extent; of meshes only
+    depth: float = math.nan  # difference of depth pictures, 0 to 1; of meshes only
 
 
 class Target(Protocol):

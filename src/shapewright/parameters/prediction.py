@@ -22,18 +22,15 @@ _BEAMS = 4
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
-    """What is likely for N shapes.
+    """What is likely for N shapes; one column and one spread a parameter, in the space's order.
 
-    space: whose parameters these are.
-    columns: one a parameter, in the space's order: (N,) encoded values of a scalar, or (N, classes) probabilities.
-    spreads: one a parameter: (N,) for a scalar, the scale b of the Laplace distribution of its error, encoded, so that
-        half of the true values lie within b ln 2 of the predicted ones and nine in ten within b ln 10; None for the
-        other kinds. Empty where nobody knows.
+    A spread is the scale b of the Laplace distribution of a scalar's error, encoded: half of the true values lie within
+    b ln 2 of the predicted ones, nine in ten within b ln 10. There are no spreads where nobody knows them.
     """
 
     space: ParameterSpace
-    columns: tuple[Floats, ...]
-    spreads: tuple[Floats | None, ...] = ()
+    columns: tuple[Floats, ...]  # (N,) encoded values of a scalar, or (N, classes) probabilities
+    spreads: tuple[Floats | None, ...] = ()  # (N,) for a scalar, None for the other kinds
 
     @classmethod
     def of(

@@ -27,18 +27,12 @@ a false alarm costs attention. The second is for a search that may pass the end:
 
 @dataclass(frozen=True)
 class Excess:
-    """A value outside a parameter's Range.
+    """A value outside a parameter's Range."""
 
-    parameter: its name.
-    value: in the procedure's own units.
-    end: of the Range, that the value has passed.
-    side: which end that is.
-    """
-
-    parameter: str
-    value: float
-    end: float
-    side: Side
+    parameter: str  # its name
+    value: float  # in the procedure's own units
+    end: float  # of the Range, that the value has passed
+    side: Side  # which end that is
 
 
 @dataclass(frozen=True)

@@ -18,22 +18,14 @@ from shapewright.shapes import Mesh, Shape
 
 @dataclass(frozen=True, eq=False)
 class Dataset:
-    """Shapes, their pictures, and the parameters that built them.
+    """Shapes, their pictures, and the parameters that built them."""
 
-    parameters: N vectors in the procedure's units.
-    targets: (N, P) float32, encoded.
-    active: (N, P) bool, whether the parameter matters there.
-    images: (N, C, 2, S, S) uint8.
-    shapes: N, normalised, all meshes or all drawings.
-    cameras: C, that took the images.
-    """
-
-    parameters: list[Parameters]
-    targets: NDArray[np.float32]
-    active: NDArray[np.bool_]
-    images: NDArray[np.uint8]
-    shapes: list[Shape]
-    cameras: tuple[Camera, ...]
+    parameters: list[Parameters]  # N vectors in the procedure's units
+    targets: NDArray[np.float32]  # (N, P) float32, encoded
+    active: NDArray[np.bool_]  # (N, P) bool, whether the parameter matters there
+    images: NDArray[np.uint8]  # (N, C, 2, S, S) uint8
+    shapes: list[Shape]  # N, normalised, all meshes or all drawings
+    cameras: tuple[Camera, ...]  # C, that took the images
 
     def __len__(self) -> int:
         return len(self.parameters)

@@ -38,60 +38,41 @@ _CAMERA_SHARE = 0.5
 
 @dataclass(frozen=True)
 class Epoch:
-    """One pass over the training rows.
+    """One pass over the training rows."""
 
-    epoch: its number, from 1.
-    train: mean loss on the training rows.
-    validation: mean loss on the validation rows, NaN where there are none.
-    """
-
-    epoch: int
-    train: float
-    validation: float
+    epoch: int  # its number, from 1
+    train: float  # mean loss on the training rows
+    validation: float  # mean loss on the validation rows, NaN where there are none
 
 
 @dataclass(frozen=True)
 class Schedule:
     """What to train, and how.
 
-    epochs: passes over the training rows.
-    batch: rows for each step.
-    learning_rate: of the network; with "adamw" the greatest.
-    weight_decay: of both optimisers.
-    optimiser: "adamw", whose learning rate rises over the first tenth of the steps and falls along a cosine, or "adam"
-        at a constant rate, the paper's.
-    camera_rate: learning rate of the cameras in radians and units of distance, 0 where they are fixed. With "adamw"
-        they move in the first half of the epochs, and the network settles in the rest; with "adam" they always move.
-    network: "compact" or "vgg19".
-    weights: a file of VGG19's, see vgg.VGG19Network.
-    device: on which torch computes.
-    seed: of the first weights and the order of the rows.
+    The learning rate of "adamw" rises over the first tenth of the steps and falls along a cosine; learned cameras move
+    in the first half of the epochs, and the network settles in the rest. With "adam", the paper's, the rate is constant
+    and the cameras always move.
     """
 
-    epochs: int = 30
-    batch: int = 64
-    learning_rate: float = 2e-3
-    weight_decay: float = 1e-2
+    epochs: int = 30  # passes over the training rows
+    batch: int = 64  # rows for each step
+    learning_rate: float = 2e-3  # of the network; with "adamw" the greatest
+    weight_decay: float = 1e-2  # of both optimisers
     optimiser: Optimiser = "adamw"
-    camera_rate: float = 0.0
+    camera_rate: float = 0.0  # learning rate of the cameras in radians and units of distance, 0 where they are fixed
     network: Network = "compact"
-    weights: Path | None = None
-    device: Device = "cpu"
-    seed: int = 0
+    weights: Path | None = None  # a file of VGG19's, see vgg.VGG19Network
+    device: Device = "cpu"  # on which torch computes
+    seed: int = 0  # of the first weights and the order of the rows
 
 
 @dataclass(frozen=True, eq=False)
 class Trained:
-    """What training gives.
+    """What training gives."""
 
-    network: in evaluation mode.
-    cameras: those that it has learned to look through.
-    curve: loss by epoch.
-    """
-
-    network: nn.Module
-    cameras: tuple[Camera, ...]
-    curve: list[Epoch]
+    network: nn.Module  # in evaluation mode
+    cameras: tuple[Camera, ...]  # those that it has learned to look through
+    curve: list[Epoch]  # loss by epoch
 
 
 def train_network(

@@ -13,18 +13,12 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Camera:
-    """A perspective camera that looks at the origin, up along +Y.
+    """A perspective camera that looks at the origin, up along +Y."""
 
-    azimuth: degrees about the up axis, 0 in front (+Z), 90 to the right (+X).
-    elevation: degrees above the horizon.
-    distance: to the origin, in units of the shape's largest extent.
-    field_of_view: degrees, of the whole image.
-    """
-
-    azimuth: float
-    elevation: float
-    distance: float = 2.6
-    field_of_view: float = 36.0
+    azimuth: float  # degrees about the up axis, 0 in front (+Z), 90 to the right (+X)
+    elevation: float  # degrees above the horizon
+    distance: float = 2.6  # to the origin, in units of the shape's largest extent
+    field_of_view: float = 36.0  # degrees, of the whole image
 
     def frame(self) -> NDArray[np.float64]:
         """(3, 3): rows are the camera's right, up and backward (towards the camera) axes."""

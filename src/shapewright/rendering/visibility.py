@@ -31,14 +31,10 @@ _DEEP = 0.004
 
 @dataclass(frozen=True, eq=False)
 class AllRound:
-    """A normalised mesh, seen from in front of the faces, edges and corners of a cube around it.
+    """A normalised mesh, seen from in front of the faces, edges and corners of a cube around it."""
 
-    cameras: the 26 places.
-    inverse_depths: (26, size, size), one over the distance along each view, 0 where there is nothing.
-    """
-
-    cameras: tuple[Camera, ...]
-    inverse_depths: Singles
+    cameras: tuple[Camera, ...]  # the 26 places
+    inverse_depths: Singles  # (26, size, size), one over the distance along each view, 0 where there is nothing
 
     @classmethod
     def of(cls, mesh: Mesh, size: int, radius: float) -> AllRound:

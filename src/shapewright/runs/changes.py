@@ -18,38 +18,23 @@ Run: TypeAlias = "Iteration | str | Path | Mapping[str, Any]"
 
 @dataclass(frozen=True)
 class Move:
-    """A reference that both iterations hold.
+    """A reference that both iterations hold."""
 
-    Attributes:
-        name: of the reference.
-        before: its distance in the earlier iteration, None without a replica.
-        after: its distance in the later iteration, None without a replica.
-    """
-
-    name: str
-    before: float | None
-    after: float | None
+    name: str  # of the reference
+    before: float | None  # its distance in the earlier iteration, None without a replica
+    after: float | None  # its distance in the later iteration, None without a replica
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """Changes from an earlier iteration to a later one; every reference is counted once at most.
+    """Changes from an earlier iteration to a later one; every reference is counted once at most."""
 
-    Attributes:
-        gained: references that became compatible.
-        lost: references that are compatible no more.
-        closer: references that came nearer by more than the tolerance, on the same side of the threshold.
-        further: references that went away by more than the tolerance, on the same side of the threshold.
-        added: names that only the later iteration holds.
-        removed: names that only the earlier iteration holds.
-    """
-
-    gained: tuple[Move, ...]
-    lost: tuple[Move, ...]
-    closer: tuple[Move, ...]
-    further: tuple[Move, ...]
-    added: tuple[str, ...]
-    removed: tuple[str, ...]
+    gained: tuple[Move, ...]  # references that became compatible
+    lost: tuple[Move, ...]  # references that are compatible no more
+    closer: tuple[Move, ...]  # nearer by more than the tolerance, on the same side of the threshold
+    further: tuple[Move, ...]  # further away by more than the tolerance, on the same side of the threshold
+    added: tuple[str, ...]  # names that only the later iteration holds
+    removed: tuple[str, ...]  # names that only the earlier iteration holds
 
 
 def compare(before: Run, after: Run, tolerance: float = 0.02) -> Comparison:

@@ -27,17 +27,11 @@ MARKS = "marks.json"
 
 @dataclass(frozen=True)
 class Mark:
-    """A judged pair.
+    """A judged pair."""
 
-    Attributes:
-        name: of the reference.
-        same: whether the author calls the two the same.
-        measures: those of MEASURES that are known.
-    """
-
-    name: str
-    same: bool
-    measures: Mapping[str, float]
+    name: str  # of the reference
+    same: bool  # whether the author calls the two the same
+    measures: Mapping[str, float]  # those of MEASURES that are known
 
 
 def marks_path(run: Path) -> Path:
