@@ -19,6 +19,7 @@ from shapewright.building.outcomes import Build, Failure, Limits, commonest_plac
 from shapewright.building.process import WorkerProcess
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError
+from shapewright.settings import Settings
 from shapewright.threads import cores
 
 SLICE = 64
@@ -33,17 +34,17 @@ class Workers:
     The results are in the order of the request and do not depend on the number of workers.
     """
 
-    def __init__(
-        self,
-        procedure: Procedure,
-        count: int | None = None,
-        limits: Limits | None = None,
-    ) -> None:
+    def __init__(self, procedure: Procedure, count: int | None = None, limits: Limits | None = None) -> None:
         self.procedure = procedure
         self.count = count or cores()
         self.limits = limits or Limits()
         self._payload = _payload(procedure)
         self._idle: list[WorkerProcess] = []
+
+    @classmethod
+    def of(cls, procedure: Procedure, settings: Settings) -> Workers:
+        """As many as the settings say, with their limits of what building one shape may cost."""
+        return cls(procedure, settings.workers, Limits(settings.shape_seconds, settings.shape_memory_mb))
 
     def __enter__(self) -> Workers:
         return self

@@ -12,7 +12,6 @@ from shapewright.feedback.causes.causes import causes
 from shapewright.feedback.causes.shared import SharedCause, shared_causes
 from shapewright.feedback.differences import differences
 from shapewright.feedback.suggestions import Suggestion, suggestions
-from shapewright.fitting.learning import limits_of
 from shapewright.judging.judge import Judge
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
@@ -63,7 +62,7 @@ def explain(
     settings = replace(iteration.settings, workers=workers or iteration.settings.workers)
     collection = _collection(references, iteration)
     stages = Stages(progress)
-    with Workers(procedure, settings.workers, limits_of(settings)) as crew:
+    with Workers.of(procedure, settings) as crew:
         stages.begin("describe", len(collection))
         judge = Judge.of(collection, settings, cache)
         stages.begin("differences", 3)

@@ -9,7 +9,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.fitting.learning import Lesson, learn, limits_of
+from shapewright.fitting.learning import Lesson, learn
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Prediction
 from shapewright.prediction.inference import Metrics, score
@@ -23,7 +23,6 @@ REFINED = 100
 """Most held-out samples that the search is measured on, where no other number is asked for."""
 VIEWS = (1, 2, 3, 5)
 """Numbers of cameras that are compared."""
-CAMERAS: tuple[Cameras, ...] = get_args(Cameras)
 
 
 @dataclass(frozen=True)
@@ -52,7 +51,7 @@ def evaluate(
     for seed in [settings.seed] if seeds is None else seeds:
         chosen = replace(settings, seed=seed)
         stages = Stages(progress)
-        with Workers(procedure, chosen.workers, limits_of(chosen)) as crew:
+        with Workers.of(procedure, chosen) as crew:
             lesson = learn(crew, chosen, stages)
             stages.end()
             seconds = sum(stages.seconds.values())
@@ -68,7 +67,7 @@ def variants(settings: Settings, compared: Literal["cameras", "views", "both"] |
     if compared in ("views", "both"):
         variants = [replace(variant, views=views) for variant in variants for views in VIEWS]
     if compared in ("cameras", "both"):
-        variants = [replace(variant, cameras=cameras) for variant in variants for cameras in CAMERAS]
+        variants = [replace(variant, cameras=cameras) for variant in variants for cameras in get_args(Cameras)]
     return variants
 
 

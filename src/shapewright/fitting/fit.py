@@ -6,7 +6,7 @@ from pathlib import Path
 
 from shapewright.building import Workers
 from shapewright.fitting.facing import quarter_turns
-from shapewright.fitting.learning import learn, learn_more, limits_of
+from shapewright.fitting.learning import learn, learn_more
 from shapewright.fitting.replicas import replicate, resume
 from shapewright.fitting.results import judged, recorded
 from shapewright.fitting.start import Start
@@ -44,7 +44,7 @@ def fit(
     """
     settings, stages = settings or Settings(), Stages(progress)
     start = Start.of(references, procedure.space, previous)
-    with Workers(procedure, settings.workers, limits_of(settings)) as crew:
+    with Workers.of(procedure, settings) as crew:
         lesson = learn(crew, settings, stages, start)
         turns = quarter_turns(references, lesson.predictor, crew, settings, stages)
         stages.begin("describe", len(references))

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from shapewright.building import Build, Limits, Workers, describe_failures
+from shapewright.building import Build, Workers, describe_failures
 from shapewright.fitting.adaptive import around
 from shapewright.fitting.sensitivity import without_effect
 from shapewright.fitting.start import Start
@@ -25,7 +25,7 @@ from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.rendering.cameras import PAGE, Camera, starting_views
 from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, Budget
-from shapewright.settings import Building, Searching, Settings
+from shapewright.settings import Searching, Settings
 from shapewright.shapes import Drawing, Shape
 
 FIRST = 256
@@ -56,7 +56,7 @@ def train(procedure: Procedure, settings: Settings | None = None, progress: List
     """Sample the procedure and train a predictor of its parameters. Raises ProcedureError as ``fit`` does."""
     settings = settings or Settings()
     stages = Stages(progress)
-    with Workers(procedure, settings.workers, limits_of(settings)) as crew:
+    with Workers.of(procedure, settings) as crew:
         lesson = learn(crew, settings, stages)
     stages.end()
     return lesson.predictor
@@ -126,11 +126,6 @@ def learn_more(
     return _train(space, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
 
 
-def limits_of(settings: Building) -> Limits:
-    """What building one shape may cost."""
-    return Limits(settings.shape_seconds, settings.shape_memory_mb)
-
-
 def _train(
     space: ParameterSpace,
     parts: Sequence[Dataset],
@@ -151,36 +146,24 @@ def _train(
 
     initial = previous.network if previous else None
     trained = train_network(space, training, validation, schedule, tell, settings.workers, initial)
-    held_out = held_out.seen_by(trained.cameras, settings.workers)
-    predictor = Predictor(
-        space,
-        trained.network,
-        trained.cameras,
-        settings.image_size,
-        measure(trained.network, space, held_out),
-        trained.curve,
-        sum(map(len, parts)),
-        settings.workers,
-    )
-    cameras = {**facts["cameras"], "after": _places(trained.cameras)}
+    training, validation, held_out = (part.seen_by(trained.cameras, settings.workers) for part in parts)
+    network, cameras, size = trained.network, trained.cameras, settings.image_size
+    metrics, samples = measure(network, space, held_out), sum(map(len, parts))
+    predictor = Predictor(space, network, cameras, size, metrics, trained.curve, samples, settings.workers)
+    places = {**facts["cameras"], "after": _places(cameras)}
     weights = str(schedule.weights) if schedule.weights else None
-    validation, training = (part.seen_by(trained.cameras, settings.workers) for part in (validation, training))
-    return Lesson(predictor, training, validation, held_out, {**facts, "cameras": cameras, "weights": weights})
+    return Lesson(predictor, training, validation, held_out, {**facts, "cameras": places, "weights": weights})
 
 
 def _cameras(kind: type[Shape], settings: Settings, previous: Predictor | None) -> tuple[Camera, ...]:
     """Those of the previous predictor, where it has as many."""
     cameras = (PAGE,) if kind is Drawing else starting_views(settings.views, settings.camera_distance)
-    inherit = previous and len(previous.cameras) == len(cameras) and kind is not Drawing
-    return previous.cameras if previous and inherit else cameras
+    same = previous and len(previous.cameras) == len(cameras) and kind is not Drawing
+    return previous.cameras if previous and same else cameras
 
 
 def _draw(
-    space: ParameterSpace,
-    builds: Sequence[Build],
-    cameras: Sequence[Camera],
-    settings: Settings,
-    kind: type[Shape],
+    space: ParameterSpace, builds: Sequence[Build], cameras: Sequence[Camera], settings: Settings, kind: type[Shape]
 ) -> Dataset:
     good, shapes = shapes_of(builds, kind)
     vectors = [build.parameters for build in good]

@@ -30,7 +30,6 @@ from shapewright.feedback.trials.attempt import (
 )
 from shapewright.feedback.trials.outcome import PROMISING, Outcome
 from shapewright.feedback.writing.source import EditError
-from shapewright.fitting.learning import limits_of
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.procedures import Procedure, ProcedureError
@@ -99,7 +98,7 @@ def selected(
     ideas: the likeliest first. known: replicas that no change may alter. evaluations: shapes built for searches, about.
     limit: of the number of changes. None only repeats part of what another does.
     """
-    with Workers(procedure, judge.settings.workers, limits_of(judge.settings)) as crew:
+    with Workers.of(procedure, judge.settings) as crew:
         trials = _Trials(procedure.space, crew, misfits, judge)
         prospects = [prospect for idea in ideas[:_BUILT] for prospect in _built(trials, idea, known)]
         leading = sorted(prospects, key=lambda prospect: -prospect.promise)
