@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import cycle, islice
 from typing import Any
 
 import numpy as np
 
-from shapewright.parameters import Parameters, ParameterSpace, Value
+from shapewright.parameters import Parameters, ParameterSpace
 
 _LEAST_SPREAD, _SPREADS = 0.03, 3.0
 """Of a scalar's normal step: its least size in shares of the Range, and its size in mean errors."""
@@ -29,11 +30,9 @@ def around(
     there is more variety where the predictor errs more.
     """
     rng = np.random.default_rng([seed, len(centres)])
-    drawn: dict[tuple[Value, ...], Parameters] = {}
-    for i in range(10 * count if centres else 0):
-        if len(drawn) == count:
-            break
-        encoded = space.encode(centres[i % len(centres)])
+
+    def moved(centre: Parameters) -> Parameters:
+        encoded = space.encode(centre)
         for column, parameter in enumerate(space):
             measured = metrics.get(parameter.name, {})
             if parameter.classes:
@@ -41,6 +40,6 @@ def around(
                     encoded[column] = rng.integers(parameter.classes)
             else:
                 encoded[column] += max(_LEAST_SPREAD, _SPREADS * measured.get("mae", 0.0)) * rng.standard_normal()
-        vector = space.canonical(space.decode(encoded))
-        drawn.setdefault(tuple(vector.values()), vector)
-    return list(drawn.values())
+        return space.decode(encoded)
+
+    return list(islice(space.different(map(moved, islice(cycle(centres), 10 * count))), count))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, TypeAlias
+from typing import Any, ClassVar, Literal, TypeAlias
 
 import numpy as np
 
@@ -57,6 +57,7 @@ class Scalar:
     default: float
     steps: int | tuple[float, ...] | None = None
     when: Condition | None = field(default=None, compare=False, repr=False)
+    classes: ClassVar = 0  # it is predicted as a number, not as one of several classes
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high):
@@ -76,11 +77,6 @@ class Scalar:
         if isinstance(self.steps, int):
             return tuple(float(level) for level in np.linspace(self.low, self.high, self.steps))
         return self.steps
-
-    @property
-    def classes(self) -> int:
-        """0: a scalar is predicted as a number, not as one of several classes."""
-        return 0
 
     def sample(self, rng: np.random.Generator) -> float:
         levels = self.levels
@@ -204,17 +200,11 @@ class Binary:
     name: str
     default: bool
     when: Condition | None = field(default=None, compare=False, repr=False)
+    levels: ClassVar = (False, True)
+    classes: ClassVar = 2
 
     def __post_init__(self) -> None:
         _check_default(self, isinstance(self.default, bool))
-
-    @property
-    def levels(self) -> tuple[bool, ...]:
-        return (False, True)
-
-    @property
-    def classes(self) -> int:
-        return 2
 
     def sample(self, rng: np.random.Generator) -> bool:
         return bool(rng.integers(2))

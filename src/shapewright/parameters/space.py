@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice, product
 from types import SimpleNamespace
 from typing import Any, TypeAlias
 
@@ -101,15 +102,19 @@ class ParameterSpace:
             raise ValueError(f"cannot sample {count} vectors")
         rng = np.random.default_rng(seed)
         if self.combinations <= max(_ENUMERABLE, 4 * count):
-            every = self._enumerate()
+            levels = [[(p.name, level) for level in p.levels or ()] for p in self.parameters]
+            every = list(self.different(map(dict, product(*levels))))
             return [every[i] for i in rng.permutation(len(every))[:count]]
-        drawn: dict[tuple[Value, ...], Parameters] = {}
-        for _ in range(_DRAWS_PER_VECTOR * count):
-            if len(drawn) == count:
-                break
-            vector = self.canonical({parameter.name: parameter.sample(rng) for parameter in self.parameters})
-            drawn.setdefault(tuple(vector.values()), vector)
-        return list(drawn.values())
+        draws = ({p.name: p.sample(rng) for p in self.parameters} for _ in range(_DRAWS_PER_VECTOR * count))
+        return list(islice(self.different(draws), count))
+
+    def different(self, vectors: Iterable[Mapping[str, Value]]) -> Iterator[Parameters]:
+        """The vectors, each canonical, without those that equal one before."""
+        seen: set[tuple[Value, ...]] = set()
+        for vector in map(self.canonical, vectors):
+            if (values := tuple(vector.values())) not in seen:
+                seen.add(values)
+                yield vector
 
     def encode(self, values: Mapping[str, Value]) -> NDArray[np.float64]:
         """Parameters in their own units to a vector (P,): scalars in [0, 1], other kinds as class indices."""
@@ -176,13 +181,6 @@ class ParameterSpace:
         for parameter in self._numbers(values):
             if side := parameter.end_at(values[parameter.name], margin):
                 yield parameter, side
-
-    def _enumerate(self) -> list[Parameters]:
-        vectors: list[Parameters] = [{}]
-        for parameter in self.parameters:
-            vectors = [{**vector, parameter.name: level} for vector in vectors for level in parameter.levels or ()]
-        canonical = (self.canonical(vector) for vector in vectors)
-        return list({tuple(vector.values()): vector for vector in canonical}.values())
 
 
 def _nearest(parameter: Parameter, value: Value | None, otherwise: Value) -> Value:
