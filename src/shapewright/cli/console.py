@@ -51,10 +51,28 @@ class _Rate(ProgressColumn):
 
 
 @contextmanager
+def interruptible(remains: str) -> Iterator[Listener]:
+    """``progress_bars``, until the user interrupts: then the command ends, and says what remains of its work."""
+    try:
+        with progress_bars() as listen:
+            yield listen
+    except KeyboardInterrupt:
+        err.print(f"stopped: {remains}")
+        raise typer.Exit(130) from None
+
+
+@contextmanager
 def progress_bars() -> Iterator[Listener]:
     """A listener that draws one bar a stage; on a dumb terminal or in a file, one line a stage."""
     if not err.is_terminal:
-        yield _plain_listener()
+        seen: set[str] = set()
+
+        def write(event: Event) -> None:
+            if event.stage not in seen:
+                seen.add(event.stage)
+                err.print(f"{_DOING.get(event.stage, event.stage)} ({event.total}) ...", highlight=False)
+
+        yield write
         return
     columns = (TextColumn("{task.description:>18}"), BarColumn(), MofNCompleteColumn(), _Rate(), TimeRemainingColumn())
     with Progress(*columns, TextColumn("[dim]{task.fields[remark]}"), console=err) as bars:
@@ -66,17 +84,6 @@ def progress_bars() -> Iterator[Listener]:
             bars.update(tasks[event.stage], completed=event.done, total=event.total, remark=escape(event.remark))
 
         yield listen
-
-
-def _plain_listener() -> Listener:
-    seen: set[str] = set()
-
-    def listen(event: Event) -> None:
-        if event.stage not in seen:
-            seen.add(event.stage)
-            err.print(f"{_DOING.get(event.stage, event.stage)} ({event.total}) ...", highlight=False)
-
-    return listen
 
 
 def print_json(value: Any) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.markup import escape
 
-from shapewright.cli.console import err, iteration_record, print_iteration, print_json, progress_bars
+from shapewright.cli.console import err, interruptible, iteration_record, print_iteration, print_json
 from shapewright.cli.options import Front, Json, PresetOption, ProcedureArgument, Up, with_settings
 from shapewright.cli.runs import explanation_of, judged_by_marks
 from shapewright.procedures import load_procedure
@@ -76,13 +76,9 @@ def fit_and_save(
     """Run and save one iteration with its report, explained if wanted; returns it and the folder that it is in."""
     from shapewright.fitting.fit import fit as iterate
 
-    try:
-        with progress_bars() as listen:
-            iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
-            explain = explanation_of(procedure, references, iteration, listen) if explained else None
-    except KeyboardInterrupt:
-        err.print("stopped: nothing of this run was written; earlier runs are as they were")
-        raise typer.Exit(130) from None
+    with interruptible("nothing of this run was written; earlier runs are as they were") as listen:
+        iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
+        explain = explanation_of(procedure, references, iteration, listen) if explained else None
     try:
         return iteration, iteration.save(folder, _report(explain, previous_run(folder, set(iteration.names))))
     except RunError as error:

@@ -28,7 +28,6 @@ app = typer.Typer(
 )
 for command in (new, fit, explain, mark, evaluate, sample, silhouettes, report, compare, studio, demo):
     app.command()(command)
-_HANDLED = (ProcedureError, CollectionError, RunError, ProjectError, ValueError, OSError)
 
 
 def main() -> None:
@@ -37,16 +36,8 @@ def main() -> None:
         app()
     except KeyboardInterrupt:
         sys.exit(130)
-    except _HANDLED as error:
-        _fail(str(error), "--json" in sys.argv)
-
-
-def _fail(message: str, json: bool) -> None:
-    err.print(f"[bold red]error:[/] {escape(message)}", highlight=False, soft_wrap=True)
-    if json:
-        print_json({"error": message})
-    sys.exit(1)
-
-
-if __name__ == "__main__":
-    main()
+    except (ProcedureError, CollectionError, RunError, ProjectError, ValueError, OSError) as error:
+        err.print(f"[bold red]error:[/] {escape(str(error))}", highlight=False, soft_wrap=True)
+        if "--json" in sys.argv:
+            print_json({"error": str(error)})
+        sys.exit(1)

@@ -21,13 +21,10 @@ def option(name: str, default: Any = None) -> Any:
     field = described()[name]
     default = field.default if default is None else default
     paper = getattr(Settings.preset("paper"), name)
-    text = "" if default is None or default is False else f"  [dim]default: {default}{_unless(paper, field.default)}[/]"
+    other = "" if paper == field.default else f"; of the preset paper: {paper}"
+    text = "" if default is None or default is False else f"  [dim]default: {default}{other}[/]"
     flag = FLAGS.get(name, f"--{name.replace('_', '-')}")
     return typer.Option(flag, min=field.within.least, max=field.within.most, help=field.help + text, show_default=False)
-
-
-def _unless(paper: Any, default: Any) -> str:
-    return "" if paper == default else f"; of the preset paper: {paper}"
 
 
 ProcedureArgument = Annotated[

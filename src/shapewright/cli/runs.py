@@ -11,13 +11,12 @@ import typer
 from rich.markup import escape
 
 from shapewright.cli.console import (
-    err,
+    interruptible,
     out,
     print_calibration,
     print_comparison,
     print_explanation,
     print_json,
-    progress_bars,
 )
 from shapewright.cli.options import Json, Workers
 from shapewright.runs.folder import RunError, previous_run
@@ -52,14 +51,8 @@ def explain(
     run = run.absolute()
     iteration = Iteration.load(run)
     procedure, collection = procedure_of(run, iteration), references_of(iteration, references)
-    try:
-        with progress_bars() as listen:
-            explanation = explain_iteration(
-                iteration, procedure, collection, listen, cache_folder(), suggestions, workers
-            )
-    except KeyboardInterrupt:
-        err.print("stopped: the run is as it was")
-        raise typer.Exit(130) from None
+    with interruptible("the run is as it was") as listen:
+        explanation = explain_iteration(iteration, procedure, collection, listen, cache_folder(), suggestions, workers)
     record = write(run, record_of(explanation), previous_run(run, set(iteration.names)))
     if json:
         print_json({"run": str(run), "report": str(run / "report.html"), **record})

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 import typer
 from rich.markup import escape
 
-from shapewright.cli.console import err, out, print_json, progress_bars
+from shapewright.cli.console import err, interruptible, out, print_json
 from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers
 from shapewright.procedures import load_procedure
 from shapewright.settings import Settings
@@ -34,21 +34,11 @@ def sample(
     from shapewright.fitting.samples import MANIFEST, write_samples
     from shapewright.progress import Progress
 
-    folder = out_dir.absolute()
-    try:
-        with progress_bars() as listen:
-            samples = write_samples(
-                load_procedure(procedure),
-                count,
-                folder,
-                format,
-                seed,
-                workers,
-                lambda done, total: listen(Progress("sample", done, total)),
-            )
-    except KeyboardInterrupt:
-        err.print(f"stopped: what {MANIFEST} lists is whole; the same command adds the others")
-        raise typer.Exit(130) from None
+    author, folder = load_procedure(procedure), out_dir.absolute()
+    with interruptible(f"what {MANIFEST} lists is whole; the same command adds the others") as listen:
+        samples = write_samples(
+            author, count, folder, format, seed, workers, lambda done, total: listen(Progress("sample", done, total))
+        )
     if samples.failures:
         err.print(f"[yellow]failed:[/] {escape(samples.failures)}", highlight=False)
     if json:
