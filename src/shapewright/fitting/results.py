@@ -43,14 +43,11 @@ def judged(
             active=procedure.space.active(build.parameters),
             at_limit=procedure.space.at_limit(build.parameters) if build.shape else (),
             replica=build.shape,
-            distance=its.distance,
-            iou=its.iou,
-            chamfer=its.chamfer,
             compatible=bool(same),
             group=group_of.get(reference.name),
             reference=reference.shape,
             error=_error(build, its.distance),
-            depth=its.depth,
+            **vars(its),
         )
         for reference, build, its, same in zip(judge.references, builds, measures, compatible, strict=True)
     )
@@ -68,7 +65,7 @@ def recorded(
 ) -> Iteration:
     """The iteration, with pictures of its results. turns: quarter turns of the references about the up axis."""
     stages.begin("picture", 1)
-    pictures = draw_pictures(results, judge.settings.workers)
+    references, pictures = judge.references, draw_pictures(results, judge.settings.workers)
     stages.end()
     return Iteration(
         results=results,
@@ -76,35 +73,27 @@ def recorded(
         groups=groups,
         settings=judge.settings,
         seconds=stages.seconds,
-        procedure=_procedure(procedure),
+        procedure={
+            "name": procedure.name,
+            "path": str(procedure.path) if procedure.path else None,
+            "digest": procedure.digest,
+            "parameters": [to_record(parameter) for parameter in procedure.space],
+        },
         source=procedure.source,
-        collection=_collection(judge.references),
-        metrics=_metrics(judge.references, lesson, turns, stages),
+        collection={
+            "source": references.source,
+            "origins": list(references.origins),
+            "up": references.up,
+            "front": references.front,
+            "count": len(references),
+            "skipped": {str(path): reason for path, reason in references.skipped.items()},
+        },
+        metrics=_metrics(references, lesson, turns, stages),
         versions={"python": platform.python_version(), **{name: version(name) for name in VERSIONED}},
         created=datetime.now(UTC).isoformat(timespec="seconds"),
         pictures=pictures,
         predictor=lesson.predictor,
     )
-
-
-def _procedure(procedure: Procedure) -> Mapping[str, Any]:
-    return {
-        "name": procedure.name,
-        "path": str(procedure.path) if procedure.path else None,
-        "digest": procedure.digest,
-        "parameters": [to_record(parameter) for parameter in procedure.space],
-    }
-
-
-def _collection(references: Collection) -> Mapping[str, Any]:
-    return {
-        "source": references.source,
-        "origins": list(references.origins),
-        "up": references.up,
-        "front": references.front,
-        "count": len(references),
-        "skipped": {str(path): reason for path, reason in references.skipped.items()},
-    }
 
 
 def _metrics(references: Collection, lesson: Lesson, turns: Sequence[int], stages: Stages) -> Mapping[str, Any]:

@@ -115,11 +115,7 @@ class Iteration:
             "seconds": dict(self.seconds),
         }
 
-    def save(
-        self,
-        folder: str | Path,
-        also: Callable[[Path], object] | None = None,
-    ) -> Path:
+    def save(self, folder: str | Path, also: Callable[[Path], object] | None = None) -> Path:
         """Write the run to a folder that does not exist yet, whole or not at all, and return it.
 
         also: writes more files into the folder before it takes its place, such as an explanation or the report.

@@ -51,6 +51,9 @@ class Result:
     depth: float = math.nan
 
 
+_MEASURES = ("distance", "iou", "chamfer", "depth")
+
+
 def to_record(result: Result, slug: str) -> dict[str, Any]:
     """As plain values for JSON; NaN becomes null."""
     return {
@@ -60,10 +63,7 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
         "parameters": result.parameters,
         "active": list(result.active),
         "at_limit": list(result.at_limit),
-        "distance": _finite(result.distance),
-        "iou": _finite(result.iou),
-        "chamfer": _finite(result.chamfer),
-        "depth": _finite(result.depth),
+        **{name: _finite(getattr(result, name)) for name in _MEASURES},
         "compatible": result.compatible,
         "group": result.group,
         "error": result.error,
@@ -74,24 +74,15 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
 
 def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
     """The inverse of ``to_record``, but for the reference's shape."""
-    distance, iou, chamfer, depth = (
-        math.nan if entry.get(key) is None else entry[key] for key in ("distance", "iou", "chamfer", "depth")
-    )
+    measures: dict[str, Any] = {name: math.nan if entry.get(name) is None else entry[name] for name in _MEASURES}
     return Result(
-        name=entry["name"],
         path=Path(entry["path"]) if entry["path"] else None,
-        parameters=entry["parameters"],
         active=tuple(entry["active"]),
         at_limit=tuple(entry["at_limit"]),
         replica=replica,
-        distance=distance,
-        iou=iou,
-        chamfer=chamfer,
-        compatible=entry["compatible"],
-        group=entry["group"],
         reference=None,
-        error=entry["error"],
-        depth=depth,
+        **measures,
+        **{name: entry[name] for name in ("name", "parameters", "compatible", "group", "error")},
     )
 
 
