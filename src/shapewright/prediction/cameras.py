@@ -16,9 +16,7 @@ from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import Camera, placed, positions, within_reach
 from shapewright.rendering.raster import render
-from shapewright.shapes import Shape
-
-Floats = NDArray[np.float64]
+from shapewright.shapes import Floats, Shape
 
 STEP = 0.02
 """From the middle to either render, radians and units of distance: a small picture changes by whole samples."""

@@ -24,9 +24,8 @@ from shapewright.prediction.network import loss, make_network, spread_loss
 from shapewright.rendering.cameras import Camera
 from shapewright.rendering.raster import render
 from shapewright.settings import Device, Network, Optimiser
+from shapewright.shapes import Ints
 from shapewright.threads import cores
-
-Rows = NDArray[np.int64]
 
 _SHARDS = 2
 """Parts of a batch on a CPU, each on a thread of its own (docs/architecture.md, Threads)."""
@@ -172,12 +171,7 @@ def _sharing_weights(network: nn.Module) -> nn.Module:
 
 
 def _backward(
-    space: ParameterSpace,
-    data: Dataset,
-    cameras: tuple[Camera, ...] | None,
-    threads: int,
-    shard: nn.Module,
-    rows: Rows,
+    space: ParameterSpace, data: Dataset, cameras: tuple[Camera, ...] | None, threads: int, shard: nn.Module, rows: Ints
 ) -> tuple[float, NDArray[np.float64] | None]:
     """Leave the gradient of the loss on these rows with the shard; returns the loss.
 
@@ -185,7 +179,10 @@ def _backward(
     loss by their positions comes back too, estimated on the first rows.
     """
     device = next(shard.parameters()).device
-    images = data.images[rows] if cameras is None else _render(data, rows, cameras, threads)
+    some = rows[:_CAMERA_ROWS]
+    images = data.images[rows]
+    if cameras is not None:
+        images = render([data.shapes[i] for i in rows], cameras, data.size, threads=threads)
     pictures = torch.from_numpy(images).to(device).flatten(1, 2).contiguous(memory_format=torch.channels_last)
     pictures = pictures.float().div_(255.0).reshape(images.shape)
     pictures.requires_grad_(cameras is not None)
@@ -197,14 +194,9 @@ def _backward(
     (value + spread_loss(space, answers, targets, active)).backward()  # type: ignore[no-untyped-call]
     if cameras is None or pictures.grad is None:
         return value.item(), None
-    some = rows[:_CAMERA_ROWS]
     by_pixel = pictures.grad[: len(some)].cpu().numpy()
     gradient = camera_gradient([data.shapes[i] for i in some], cameras, by_pixel, threads=threads)
     return value.item(), gradient * (len(rows) / len(some))
-
-
-def _render(data: Dataset, rows: Rows, cameras: tuple[Camera, ...], threads: int) -> NDArray[np.uint8]:
-    return render([data.shapes[i] for i in rows], cameras, data.size, threads=threads)
 
 
 def _average_gradients(shards: list[nn.Module]) -> None:

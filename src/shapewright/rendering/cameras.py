@@ -23,13 +23,8 @@ class Camera:
     def frame(self) -> NDArray[np.float64]:
         """(3, 3): rows are the camera's right, up and backward (towards the camera) axes."""
         azimuth, elevation = math.radians(self.azimuth), math.radians(self.elevation)
-        backward = np.array(
-            [
-                math.sin(azimuth) * math.cos(elevation),
-                math.sin(elevation),
-                math.cos(azimuth) * math.cos(elevation),
-            ]
-        )
+        level = math.cos(elevation)
+        backward = np.array([math.sin(azimuth) * level, math.sin(elevation), math.cos(azimuth) * level])
         right = np.array([math.cos(azimuth), 0.0, -math.sin(azimuth)])
         return np.stack([right, np.cross(backward, right), backward])
 

@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import io
-from typing import TypeAlias
 
 import numpy as np
 import shapely
 from numba import njit
 from numpy.typing import NDArray
 
-from shapewright.shapes import Drawing
-
-Bytes: TypeAlias = NDArray[np.uint8]
-Floats: TypeAlias = NDArray[np.float64]
-Ints: TypeAlias = NDArray[np.int64]
+from shapewright.shapes import Bytes, Drawing, Floats, Ints
 
 HALF = 0.53
 """Half the side of the page that pictures show, the drawing's largest extent being 1."""

@@ -32,7 +32,8 @@ def silhouette(mesh: Mesh, view: View = "front") -> Drawing:
         raise ValueError(f"view={view!r}: there is {', '.join(_AXES)}")
     normalised, size = mesh.normalised(), float(mesh.extent.max())
     flat = normalised.triangles @ np.array(_AXES[view]).T
-    flat = flat[np.abs(_areas(flat)) > _GRID**2]
+    a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    flat = flat[np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0 > _GRID**2]
     triangles: Any = shapely.polygons(np.unique(np.round(flat / _GRID), axis=0) * _GRID)
     covered = shapely.union_all(shapely.make_valid(triangles), grid_size=_GRID)
     closed = covered.buffer(_SLIT, join_style="mitre").buffer(-2.0 * _SLIT, join_style="mitre")
@@ -41,8 +42,3 @@ def silhouette(mesh: Mesh, view: View = "front") -> Drawing:
         raise ValueError(f"the shape shows no area from the {view}")
     area = shapely.transform(shapely.simplify(shapely.union_all(parts), _SLIT / 4.0), lambda points: points * size)
     return Drawing(cast("shapely.Polygon | shapely.MultiPolygon", area))
-
-
-def _areas(triangles: Any) -> Any:
-    a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    return (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0

@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import THREE_VIEWS, Camera, pack
 from shapewright.rendering.ink import picture
-from shapewright.shapes import Mesh, Shape
+from shapewright.shapes import Bytes, Floats, Ints, Mesh, Shape
 from shapewright.threads import in_threads
+
+Singles = NDArray[np.float32]
 
 AMBIENT = 0.25
 """Shading of a face that the light only grazes; 1 is a face that looks into it."""
@@ -30,7 +32,7 @@ def render(
     size: int = 64,
     supersample: int = 2,
     threads: int | None = None,
-) -> NDArray[np.uint8]:
+) -> Bytes:
     """Pictures of normalised shapes: (N, C, 2, size, size), row 0 at the top.
 
     Channel 0 is shading (0 background, a face 64 to 255 by its angle to a light that rides on the camera, both sides
@@ -52,7 +54,7 @@ def render(
     return images
 
 
-def view(mesh: Mesh, camera: Camera, size: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+def view(mesh: Mesh, camera: Camera, size: int) -> tuple[Singles, Singles]:
     """One view of a normalised mesh: shading and inverse depth, (size, size) each, row 0 at the top, 0 where empty.
 
     Shading is AMBIENT to 1, inverse depth one over the distance along the view.
@@ -62,7 +64,7 @@ def view(mesh: Mesh, camera: Camera, size: int) -> tuple[NDArray[np.float32], ND
     return shade, inverse_depth
 
 
-def inverse_depths(mesh: Mesh, cameras: Sequence[Camera], size: int) -> NDArray[np.float32]:
+def inverse_depths(mesh: Mesh, cameras: Sequence[Camera], size: int) -> Singles:
     """One over the distance along each view of a normalised mesh, (C, size, size), row 0 at the top, 0 where empty."""
     inverse = np.empty((len(cameras), size, size), dtype=np.float32)
     shade, projected = np.empty((size, size), dtype=np.float32), np.empty_like(mesh.vertices)
@@ -72,14 +74,7 @@ def inverse_depths(mesh: Mesh, cameras: Sequence[Camera], size: int) -> NDArray[
 
 
 @njit(nogil=True, cache=True)
-def _draw(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int64],
-    cameras: NDArray[np.float64],
-    size: int,
-    supersample: int,
-    images: NDArray[np.uint8],
-) -> None:
+def _draw(vertices: Floats, faces: Ints, cameras: Floats, size: int, supersample: int, images: Bytes) -> None:
     side = size * supersample
     shade = np.empty((side, side), dtype=np.float32)
     inverse_depth = np.empty((side, side), dtype=np.float32)
@@ -91,12 +86,7 @@ def _draw(
 
 @njit(nogil=True, cache=True)
 def _draw_view(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int64],
-    camera: NDArray[np.float64],
-    projected: NDArray[np.float64],
-    shade: NDArray[np.float32],
-    inverse_depth: NDArray[np.float32],
+    vertices: Floats, faces: Ints, camera: Floats, projected: Floats, shade: Singles, inverse_depth: Singles
 ) -> None:
     """One view into buffers (S, S): shading, AMBIENT to 1, and one over the distance along the view; 0 where empty.
 

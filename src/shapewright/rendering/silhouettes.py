@@ -11,9 +11,9 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from shapewright.shapes import Mesh
+from shapewright.shapes import Bytes, Floats, Ints, Mesh
 
 SIZE = 256
 """Rows and columns of a silhouette; it shows [-1, 1] x [-1, 1]."""
@@ -22,10 +22,6 @@ _SUBPIXELS = 256.0
 """Places of a corner along a pixel, as on graphics hardware."""
 _BELOW = 2.0**-30
 """Of a pixel: more than any rounding error, less than the distance of any crossing from a pixel centre."""
-
-Bytes = NDArray[np.uint8]
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 def view_axes(directions: ArrayLike) -> Floats:
@@ -103,15 +99,7 @@ def _fill_triangles(columns: Floats, rows: Floats, faces: Ints, image: Bytes) ->
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def _fill_rows(
-    pixels: Bytes,
-    first: int,
-    end: int,
-    long: float,
-    long_slope: float,
-    x0: float,
-    y0: float,
-    x1: float,
-    y1: float,
+    pixels: Bytes, first: int, end: int, long: float, long_slope: float, x0: float, y0: float, x1: float, y1: float
 ) -> None:
     """Fill rows between the long edge, which crosses the first of them at ``long``, and the edge from 0 to 1."""
     slope = (x1 - x0) / (y1 - y0)

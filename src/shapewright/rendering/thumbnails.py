@@ -38,7 +38,10 @@ def thumbnail(shape: Shape, size: int = 256, camera: Camera = THUMBNAIL) -> byte
     The shape is normalised first, so that the whole of it is in the picture whatever its size and place.
     Raises ValueError for a mesh without faces or of no size.
     """
-    return _png(_shaded(shape, size, camera) if isinstance(shape, Mesh) else _plain(shape, size))
+    picture = _shaded(shape, size, camera) if isinstance(shape, Mesh) else _plain(shape, size)
+    buffer = io.BytesIO()
+    Image.fromarray(picture).save(buffer, "PNG")
+    return buffer.getvalue()
 
 
 def thumbnails(shapes: Sequence[Shape], size: int = 256, threads: int | None = None) -> list[bytes]:
@@ -49,9 +52,8 @@ def thumbnails(shapes: Sequence[Shape], size: int = 256, threads: int | None = N
 def _plain(drawing: Drawing, size: int) -> NDArray[np.uint8]:
     """One grey, light enough for a tint over it to show, inside a margin of an eighth."""
     inner = size * 3 // 4
-    alpha = np.zeros((size, size), dtype=np.uint8)
     start = (size - inner) // 2
-    alpha[start : start + inner, start : start + inner] = ink.picture(drawing, inner, SUPERSAMPLE)[0]
+    alpha = np.pad(ink.picture(drawing, inner, SUPERSAMPLE)[0], (start, size - inner - start))
     return np.stack([np.full_like(alpha, _PLAIN), alpha], axis=-1)
 
 
@@ -61,12 +63,6 @@ def _shaded(mesh: Mesh, size: int, camera: Camera) -> NDArray[np.uint8]:
     picture = np.empty((size, size, 2), dtype=np.uint8)
     _ink(shade, inverse_depth, 2.0 / (side * camera.focal_length), picture)
     return picture
-
-
-def _png(picture: NDArray[np.uint8]) -> bytes:
-    buffer = io.BytesIO()
-    Image.fromarray(picture).save(buffer, "PNG")
-    return buffer.getvalue()
 
 
 @njit(nogil=True, cache=True)

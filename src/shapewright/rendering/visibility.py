@@ -16,10 +16,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import Camera, pack
-from shapewright.rendering.raster import inverse_depths
+from shapewright.rendering.raster import Singles, inverse_depths
 from shapewright.shapes import Floats, Mesh
-
-Singles = NDArray[np.float32]
 
 _DISTANCE = 4.0
 """Of the cameras to the origin, in units of the mesh's largest extent: far enough for little perspective."""
