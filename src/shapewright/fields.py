@@ -62,11 +62,14 @@ class Field:
     def checked(self, value: Any) -> Any:
         """The value as its plain type. Raises ValueError, which says what is allowed."""
         plain = value.item() if isinstance(value, np.generic) else value
-        if (plain is None and self.optional) or self._allows(plain):
+        if self.allows(plain):
             return self.kind(plain) if plain is not None else None
         raise ValueError(f"{self.name}={value!r} must be {self.allowed}{meant(value, self.choices)}")
 
-    def _allows(self, value: Any) -> bool:
+    def allows(self, value: Any) -> bool:
+        """Whether it may have this value, of a plain type."""
+        if value is None:
+            return self.optional
         if self.choices:
             return isinstance(value, str) and value in self.choices
         if self.kind is tuple:

@@ -58,7 +58,6 @@ class Stages:
     def begin(self, stage: str, total: int) -> None:
         self.end()
         self._stage, self._started, self._told = stage, time.perf_counter(), 0.0
-        self._done, self._total = 0, total
         self.step(0, total)
 
     def step(self, done: int, total: int, remark: str = "", losses: Mapping[str, float | None] | None = None) -> None:

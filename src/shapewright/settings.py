@@ -127,7 +127,8 @@ class Settings(Judging, Searching, Learning, Building):
 
         Unknown entries are left out. So are values that are not allowed: older versions took them for the default.
         """
-        return cls(**{name: value for name, value in record.items() if name in described() and _allows(name, value)})
+        known = described()
+        return cls(**{name: value for name, value in record.items() if name in known and known[name].allows(value)})
 
 
 @cache
@@ -141,14 +142,6 @@ def groups() -> Mapping[str, tuple[str, ...]]:
     """The names of the settings of each group, by the group's name in small letters."""
     kinds = (Building, Learning, Searching, Judging)
     return {kind.__name__.lower(): tuple(field.name for field in fields(kind)) for kind in kinds}
-
-
-def _allows(name: str, value: Any) -> bool:
-    try:
-        described()[name].checked(value)
-    except ValueError:
-        return False
-    return True
 
 
 _PRESETS: dict[str, dict[str, Any]] = {

@@ -13,6 +13,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from itertools import chain, count
 from pathlib import Path
 
 PARTIAL = ".partial"
@@ -98,13 +99,9 @@ def file_names(names: tuple[str, ...]) -> dict[str, str]:
     taken: set[str] = set()
     for name in names:
         stem = re.sub(r"[^A-Za-z0-9_-]+", "-", name).strip("-")[:80] or "reference"
-        slug = stem
-        for count in range(2, len(names) + 2):
-            if slug.lower() not in taken:
-                break
-            slug = f"{stem}-{count}"
-        taken.add(slug.lower())
-        slugs[name] = slug
+        numbered = chain([stem], (f"{stem}-{number}" for number in count(2)))
+        slugs[name] = next(slug for slug in numbered if slug.lower() not in taken)
+        taken.add(slugs[name].lower())
     return slugs
 
 

@@ -22,7 +22,7 @@ from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.runs.folder import RunError, check_free
-from shapewright.shapes import Drawing
+from shapewright.shapes import Drawing, Mesh
 from shapewright.shapes.files import Format, encode
 from shapewright.shapes.soundness import Soundness
 from shapewright.storage import remove_leftovers, whole_file, write_file
@@ -90,7 +90,9 @@ def write_samples(
                 failed += [build for build in builds if build.failure]
                 names = [f"{procedure.name}-{i:05d}" for i in range(len(rows), len(rows) + len(chunk))]
                 rows += pool.map(lambda name, build: _write_shape(folder, name, build, format, record), names, builds)
-                write_file(folder / MANIFEST, _csv([header, *rows]))
+                table = io.StringIO(newline="")
+                csv.writer(table).writerows([header, *rows])
+                write_file(folder / MANIFEST, table.getvalue())
                 if progress:
                     progress(len(rows), len(vectors))
     except OSError as error:
@@ -137,18 +139,17 @@ def _resume(folder: Path, record: dict[str, Any], vectors: Sequence[Parameters])
 
 def _write_shape(folder: Path, name: str, build: Build, format: Format, record: dict[str, Any]) -> list[str]:
     """Write one shape; returns its row of the manifest."""
-    values = [str(value) for value in build.parameters.values()]
+    values, soundness = [str(value) for value in build.parameters.values()], [""] * (1 + len(_MEASURES))
     if build.shape is None:
-        assert build.failure is not None
-        return ["", *values, *[""] * (1 + len(_MEASURES)), str(build.failure)]
+        return ["", *values, *soundness, str(build.failure)]
     extras = {key: record[key] for key in ("procedure", "version", "seed")} | {"parameters": dict(build.parameters)}
     path = f"{name}.{'svg' if isinstance(build.shape, Drawing) else format}"
     with whole_file(folder / path) as partial:
         partial.write_bytes(encode(build.shape, format, extras))
-    if isinstance(build.shape, Drawing):
-        return [path, *values, *[""] * (1 + len(_MEASURES)), ""]
-    state = build.shape.soundness()
-    return [path, *values, str(state.sound), *(str(getattr(state, name)) for name in _MEASURES), ""]
+    if isinstance(build.shape, Mesh):
+        state = build.shape.soundness()
+        soundness = [str(state.sound), *(str(getattr(state, name)) for name in _MEASURES)]
+    return [path, *values, *soundness, ""]
 
 
 def _summary(rows: Sequence[Sequence[str]], failed: Sequence[Build], columns: int) -> Samples:
@@ -156,9 +157,3 @@ def _summary(rows: Sequence[Sequence[str]], failed: Sequence[Build], columns: in
     sound = columns - len(_MEASURES) - 2
     unsound = sum(row[sound] == "False" for row in shapes)
     return Samples(len(shapes), unsound, len(rows) - len(shapes), describe_failures(failed) if failed else "")
-
-
-def _csv(rows: Sequence[Sequence[str]]) -> str:
-    text = io.StringIO(newline="")
-    csv.writer(text).writerows(rows)
-    return text.getvalue()

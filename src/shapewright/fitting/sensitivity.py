@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from shapewright.building import Build
-from shapewright.parameters import Parameter, Parameters, ParameterSpace, Value
+from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.rendering.cameras import Camera
 from shapewright.rendering.raster import render
 
@@ -45,12 +45,9 @@ def without_effect(
 
 def _vary(space: ParameterSpace, name: str, values: Parameters, rng: np.random.Generator) -> Parameters:
     """The values with this parameter at another of its levels."""
-    others = [level for level in _levels(space[name]) if level != values[name]]
+    levels = space[name].levels or [space[name].decode(float(share)) for share in np.linspace(0.0, 1.0, 5)]
+    others = [level for level in levels if level != values[name]]
     return space.canonical({**values, name: others[int(rng.integers(len(others)))]})
-
-
-def _levels(parameter: Parameter) -> Sequence[Value]:
-    return parameter.levels or [parameter.decode(float(share)) for share in np.linspace(0.0, 1.0, 5)]
 
 
 def _differ(one: Build, other: Build, threads: int | None) -> bool:
