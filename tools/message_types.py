@@ -17,9 +17,9 @@ from typing import Annotated, Any, Literal, NotRequired, Union, get_args, get_or
 import msgspec
 
 from shapewright.settings import Preset, described
-from shapewright.studio.wire import board, changes, jobs, problems, references, requests, runs, shapes, values
+from shapewright.studio.wire import answers, changes, collection, detail, problems, requests, values, work
 
-MODULES = (values, problems, board, jobs, runs, references, shapes, changes, requests)
+MODULES = (values, problems, collection, work, detail, answers, changes, requests)
 _PLAIN: Mapping[Any, str] = {
     str: "string",
     int: "number",

@@ -19,7 +19,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from websockets.sync.client import ClientConnection, connect
 
-from shapewright.studio.wire.frames import parse
+from shapewright.studio.wire.answers import parse
 
 PROCEDURE = """
 from typing import Annotated

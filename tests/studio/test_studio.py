@@ -21,7 +21,7 @@ from shapewright.comparison.surfaces import chamfer
 from shapewright.procedures import load_procedure
 from shapewright.references import Collection
 from shapewright.studio.project.workspace import Project
-from shapewright.studio.wire.frames import parse
+from shapewright.studio.wire.answers import parse
 from studio_client import PROCEDURE, Studio, ready, studio
 
 FIT = ("--samples", "40", "--epochs", "1", "--refine", "off", "--workers", "1", "--time-limit", "1")

@@ -21,8 +21,8 @@ from shapewright.parameters import Parameters, to_record
 from shapewright.procedures import Procedure, ProcedureError, describe, load_procedure, place_of
 from shapewright.shapes import Mesh
 from shapewright.studio.bench.built import Built, Version
-from shapewright.studio.wire.board import Parameter
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
+from shapewright.studio.wire.collection import Parameter
 
 LOADING_SECONDS = 20.0
 """What reading the author's file may take, its imports included."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from shapewright.building.outcomes import Build
 from shapewright.parameters import Parameters
-from shapewright.studio.wire.board import Parameter
+from shapewright.studio.wire.collection import Parameter
 
 
 @dataclass(frozen=True)

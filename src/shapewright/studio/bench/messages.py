@@ -8,10 +8,10 @@ from msgspec import Struct
 
 from shapewright.settings import Align
 from shapewright.studio.project.listing import Origin
-from shapewright.studio.wire.board import Parameter
+from shapewright.studio.wire.answers import DistanceMessage, DrawingMessage, FailedMessage
+from shapewright.studio.wire.collection import Parameter
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.requests import Evaluate
-from shapewright.studio.wire.shapes import DistanceMessage, DrawingMessage, FailedMessage
 from shapewright.studio.wire.values import Slug, Values
 
 

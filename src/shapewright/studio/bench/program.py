@@ -54,11 +54,11 @@ from shapewright.studio.bench.shape_messages import (
 from shapewright.studio.bench.sweep import Sweep
 from shapewright.studio.bench.workshop import Broken, Workshop
 from shapewright.studio.project.listing import Listing, listing
+from shapewright.studio.wire.answers import DrawingMessage, FailedMessage
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
+from shapewright.studio.wire.detail import About
 from shapewright.studio.wire.problems import Problem, of_failure
-from shapewright.studio.wire.references import About
 from shapewright.studio.wire.requests import Evaluate
-from shapewright.studio.wire.shapes import DrawingMessage, FailedMessage
 from shapewright.studio.wire.values import Slug, Values
 
 _MEMORY = 24 * 2**20

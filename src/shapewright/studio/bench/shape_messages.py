@@ -13,9 +13,8 @@ from shapewright.references.collection import Reference
 from shapewright.shapes import Drawing, Mesh
 from shapewright.studio.bench.built import Built
 from shapewright.studio.bench.residual_colours import LIMIT, Residual
-from shapewright.studio.wire.frames import binary
-from shapewright.studio.wire.references import About, Units
-from shapewright.studio.wire.shapes import DistanceMessage, DrawingMessage, Extent, MeshHead, ResidualsHead
+from shapewright.studio.wire.answers import DistanceMessage, DrawingMessage, Extent, MeshHead, ResidualsHead, binary
+from shapewright.studio.wire.detail import About, Units
 from shapewright.studio.wire.values import Slug
 
 _DIGITS = 5

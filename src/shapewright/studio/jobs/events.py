@@ -13,9 +13,9 @@ from msgspec import Struct
 
 from shapewright.progress import AnswerKind, Progress
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
-from shapewright.studio.wire.jobs import Epoch, JobResult
 from shapewright.studio.wire.problems import Problem, ProblemKind, of_error
 from shapewright.studio.wire.values import Values
+from shapewright.studio.wire.work import Epoch, JobResult
 
 
 class Event(Struct, frozen=True, kw_only=True, tag=True):

@@ -11,13 +11,13 @@ from typing import Any
 
 from shapewright.studio.jobs.events import Advanced, AnyEvent, Done, Failed, Guessed
 from shapewright.studio.wire.child import Child, Frame, on_this_loop
-from shapewright.studio.wire.jobs import Answer, Epoch, Job, JobKind, JobResult, JobStage, JobState
 from shapewright.studio.wire.problems import Problem
+from shapewright.studio.wire.work import Answer, Epoch, Job, JobKind, JobResult, JobStage, JobState
 
 
 @dataclass(eq=False)
 class Runner:
-    """One kind of work, of which at most one runs at a time; see ``wire.jobs.Job`` for the other fields."""
+    """One kind of work, of which at most one runs at a time; see ``wire.work.Job`` for the other fields."""
 
     kind: JobKind
     root: Path  # folder that problems name files relative to

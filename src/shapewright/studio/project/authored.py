@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from shapewright.studio.project.workspace import Project
-from shapewright.studio.wire.board import Parameter, Procedure
+from shapewright.studio.wire.collection import Parameter, Procedure
 from shapewright.studio.wire.values import Values
 
 

@@ -16,8 +16,8 @@ from shapewright.studio.session import queries
 from shapewright.studio.session.history import comparison, source_of
 from shapewright.studio.session.session import Session
 from shapewright.studio.wire import requests
-from shapewright.studio.wire.board import Mark
-from shapewright.studio.wire.references import About
+from shapewright.studio.wire.collection import Mark
+from shapewright.studio.wire.detail import About
 from shapewright.studio.wire.values import Slug, encode
 
 KEEP = {"cache-control": "private, max-age=31536000, immutable"}

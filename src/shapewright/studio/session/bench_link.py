@@ -14,10 +14,10 @@ from shapewright.studio.project.workspace import Project
 from shapewright.studio.session.board import tint
 from shapewright.studio.session.display import Display
 from shapewright.studio.session.pages import Pages
-from shapewright.studio.wire.board import Stage
+from shapewright.studio.wire.answers import DistanceMessage
 from shapewright.studio.wire.changes import BenchState
+from shapewright.studio.wire.collection import Stage
 from shapewright.studio.wire.requests import Evaluate
-from shapewright.studio.wire.shapes import DistanceMessage
 from shapewright.studio.wire.values import Slug, Values
 
 

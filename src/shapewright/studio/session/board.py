@@ -16,7 +16,7 @@ from shapewright.report.page import colour
 from shapewright.settings import Settings
 from shapewright.studio.project.listing import Listing
 from shapewright.studio.project.picture_store import Pictures
-from shapewright.studio.wire.board import Collection, Group, Skipped, Stage, Tile
+from shapewright.studio.wire.collection import Collection, Group, Skipped, Stage, Tile
 from shapewright.studio.wire.problems import Problem, together
 from shapewright.studio.wire.values import Address, Slug
 
@@ -25,7 +25,7 @@ Record = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class ReferenceState:
-    """One reference, and what is known of it; see ``wire.board.Tile`` for the other fields."""
+    """One reference, and what is known of it; see ``wire.collection.Tile`` for the other fields."""
 
     slug: Slug
     name: str

@@ -15,8 +15,8 @@ from shapewright.studio.project.picture_store import Pictures
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.session.board import Board, lay_out
 from shapewright.studio.session.pages import Pages
-from shapewright.studio.wire.board import Stage
 from shapewright.studio.wire.changes import CollectionChanged, TilesChanged
+from shapewright.studio.wire.collection import Stage
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Slug, Values
 

@@ -15,8 +15,8 @@ from shapewright.runs.changes import Move as RunMove
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import EXPLANATION, RECORD, RunError, read_record
 from shapewright.studio.session.board import tint
-from shapewright.studio.wire.runs import Comparison, DiffLine, Move, Run
 from shapewright.studio.wire.values import Slug
+from shapewright.studio.wire.work import Comparison, DiffLine, Move, Run
 
 Address = Callable[[Path], str | None]
 

@@ -16,10 +16,10 @@ from shapewright.studio.project.workspace import Project
 from shapewright.studio.session.bench_link import BenchLink
 from shapewright.studio.session.display import Display
 from shapewright.studio.session.pages import Pages
-from shapewright.studio.wire.board import Stage
 from shapewright.studio.wire.changes import JobChanged
-from shapewright.studio.wire.jobs import Job, JobKind
+from shapewright.studio.wire.collection import Stage
 from shapewright.studio.wire.requests import ExportOrder
+from shapewright.studio.wire.work import Job, JobKind
 
 _STAGES: Mapping[AnswerKind, Stage] = {"most similar samples": "early", "predicted": "predicted"}
 _PROGRAM = "shapewright.studio.jobs.{}_job"

@@ -15,11 +15,10 @@ from shapewright.studio.project.workspace import Missing
 from shapewright.studio.session.board import tint
 from shapewright.studio.session.history import source_of
 from shapewright.studio.session.session import Session
-from shapewright.studio.wire.board import Parameter
-from shapewright.studio.wire.jobs import Epoch
-from shapewright.studio.wire.references import About, Explanation, Reference
-from shapewright.studio.wire.runs import RunDetail
+from shapewright.studio.wire.collection import Parameter
+from shapewright.studio.wire.detail import About, Explanation, Reference
 from shapewright.studio.wire.values import Slug
+from shapewright.studio.wire.work import Epoch, RunDetail
 
 _OF_SUGGESTIONS = {"title": "", "text": "", "snippet": None, "source": None, "gain": None, "tried": None}
 

@@ -35,7 +35,6 @@ from shapewright.studio.session.history import summaries
 from shapewright.studio.session.job_list import JobList, Refused
 from shapewright.studio.session.pages import Page, Pages
 from shapewright.studio.session.problem_list import ProblemList
-from shapewright.studio.wire.board import Mark, Procedure
 from shapewright.studio.wire.changes import (
     ChosenSettings,
     ExplanationChanged,
@@ -46,8 +45,9 @@ from shapewright.studio.wire.changes import (
     SettingsChanged,
     State,
 )
+from shapewright.studio.wire.collection import Mark, Procedure
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.runs import Run
+from shapewright.studio.wire.work import Run
 
 _PATIENCE = 2.0
 """Seconds for which a fit after a save waits until the replicas of the new version are shown."""

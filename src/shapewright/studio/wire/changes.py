@@ -7,11 +7,10 @@ from typing import Annotated, Literal, TypeAlias
 from msgspec import Meta, Struct
 
 from shapewright.settings import Preset, Refine
-from shapewright.studio.wire.board import Collection, Mark, Procedure, Tile
-from shapewright.studio.wire.jobs import Job, JobKind
+from shapewright.studio.wire.collection import Collection, Mark, Procedure, Tile
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.runs import Run
 from shapewright.studio.wire.values import Message
+from shapewright.studio.wire.work import Job, JobKind, Run
 
 BenchState: TypeAlias = Literal["starting", "ready", "restarting"]
 

@@ -9,9 +9,9 @@ import msgspec
 from msgspec import Meta, Struct
 
 from shapewright.shapes.files import Format
-from shapewright.studio.wire.board import Mark
-from shapewright.studio.wire.jobs import JobKind
+from shapewright.studio.wire.collection import Mark
 from shapewright.studio.wire.values import Slug, Values
+from shapewright.studio.wire.work import JobKind
 
 MOST_SAMPLES = 10_000
 """More would fill a disk without anybody looking at them."""

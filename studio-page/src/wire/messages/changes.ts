@@ -1,9 +1,8 @@
 // Made from src/shapewright/studio/wire/changes.py by `python tools/message_types.py`.
 
-import type { Collection, Mark, Procedure, Tile } from "./board";
-import type { Job, JobKind } from "./jobs";
+import type { Collection, Mark, Procedure, Tile } from "./collection";
+import type { Job, JobKind, Run } from "./work";
 import type { Problem } from "./problems";
-import type { Run } from "./runs";
 
 /** Of the author's project: its name, and where its parts are. */
 export interface ProjectNames {

@@ -1,6 +1,6 @@
 // Made from src/shapewright/studio/wire/requests.py by `python tools/message_types.py`.
 
-import type { JobKind } from "./jobs";
+import type { JobKind } from "./work";
 import type { Slug, Values } from "./values";
 
 export type Part = "replicas" | "samples" | "report" | "parameters";

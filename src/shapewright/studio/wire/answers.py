@@ -1,21 +1,26 @@
-"""Answers of live evaluation: shapes, and how far they are from their reference.
-
-The heads of ``mesh`` and ``residuals`` begin binary messages, see ``frames``.
-"""
+"""Answers of live evaluation: shapes, and how far they are from their reference. Meshes travel in binary messages."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+import json
+import struct
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, TypeAlias
 
+import numpy as np
 from msgspec import UNSET, Meta, Struct, UnsetType, field
+from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.values import Message, Slug, Values
+from shapewright.studio.wire.values import Message, Slug, Values, encode
 
 Side: TypeAlias = Annotated[Literal["replica", "reference"], Meta(title="Side")]
 BufferKind: TypeAlias = Annotated[Literal["f32", "u32", "i32"], Meta(title="BufferKind")]
 Buffer: TypeAlias = Annotated[tuple[str, BufferKind, int], Meta(title="Buffer")]
 """Name, kind and number of values of a buffer."""
+Buffers = Mapping[str, NDArray[Any]]
+_KINDS: Mapping[str, BufferKind] = {"f4": "f32", "u4": "u32", "i4": "i32"}
 
 
 class Extent(Struct, frozen=True, kw_only=True):
@@ -86,3 +91,27 @@ class FailedMessage(Message, frozen=True, kw_only=True, tag="failed"):
     slug: Slug | None
     problem: Problem
     active: list[str] | None  # null where that is not known
+
+
+def binary(head: MeshHead | ResidualsHead, buffers: Buffers) -> bytes:
+    """A binary message: u32 length of the header, the header as JSON, the buffers; all little-endian, 4-byte aligned.
+
+    buffers: float32, uint32 or int32; the head's field ``buffers`` comes to describe them.
+    """
+    described = [(name, _KINDS[array.dtype.str[1:]], array.size) for name, array in buffers.items()]
+    text = encode(replace(head, buffers=described))
+    text += b" " * (-len(text) % 4)
+    arrays = (np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<")) for array in buffers.values())
+    return b"".join([struct.pack("<I", len(text)), text, *(array.tobytes() for array in arrays)])
+
+
+def parse(message: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """The inverse of ``binary``. Raises ValueError for a message that is cut short."""
+    (length,) = struct.unpack_from("<I", message)
+    header = json.loads(message[4 : 4 + length])
+    kinds = {kind: f"<{code}" for code, kind in _KINDS.items()}
+    buffers, start = {}, 4 + length
+    for name, kind, count in header["buffers"]:
+        buffers[name] = np.frombuffer(message, dtype=kinds[kind], count=count, offset=start)
+        start += 4 * count
+    return header, buffers

@@ -1,8 +1,8 @@
-// Made from src/shapewright/studio/wire/references.py by `python tools/message_types.py`.
+// Made from src/shapewright/studio/wire/detail.py by `python tools/message_types.py`.
 
 import type { Address, Slug, Values, Vector } from "./values";
 import type { Problem } from "./problems";
-import type { Stage } from "./board";
+import type { Stage } from "./collection";
 
 /** The way back from the normalised frame: own = axes^T @ (normalised / scale + centre). In 2D, vectors of two. */
 export interface Units {

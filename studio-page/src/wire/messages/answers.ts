@@ -1,4 +1,4 @@
-// Made from src/shapewright/studio/wire/shapes.py by `python tools/message_types.py`.
+// Made from src/shapewright/studio/wire/answers.py by `python tools/message_types.py`.
 
 import type { Problem } from "./problems";
 import type { Slug, Values } from "./values";

@@ -1,4 +1,4 @@
-// Made from src/shapewright/studio/wire/board.py by `python tools/message_types.py`.
+// Made from src/shapewright/studio/wire/collection.py by `python tools/message_types.py`.
 
 import type { Address, Slug, Value } from "./values";
 import type { Problem } from "./problems";

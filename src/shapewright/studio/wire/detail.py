@@ -10,7 +10,7 @@ from typing import Any, Literal, NotRequired, TypedDict
 
 from msgspec import Struct
 
-from shapewright.studio.wire.board import Stage
+from shapewright.studio.wire.collection import Stage
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Address, Slug, Values, Vector
 
