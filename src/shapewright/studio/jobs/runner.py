@@ -12,6 +12,7 @@ from typing import Any
 from shapewright.studio.jobs.events import Advanced, AnyEvent, Done, Failed, Guessed
 from shapewright.studio.wire.child import Child, Frame, on_this_loop
 from shapewright.studio.wire.problems import Problem
+from shapewright.studio.wire.values import message_of
 from shapewright.studio.wire.work import Answer, Epoch, Job, JobKind, JobResult, JobStage, JobState
 
 
@@ -41,16 +42,8 @@ class Runner:
 
     def job(self) -> Job:
         """As the page gets it."""
-        return Job(
-            kind=self.kind,
-            state=self.state,
-            stages=self.stages,
-            curve=self.curve,
-            answer=self.answer,
-            seconds=round(time.monotonic() - self._started if self.running else self._seconds, 2),
-            problem=self.problem,
-            result=self.result,
-        )
+        seconds = time.monotonic() - self._started if self.running else self._seconds
+        return message_of(Job, self, seconds=round(seconds, 2))
 
     def start(self, module: str, request: dict[str, Any]) -> None:
         """Run a program with a request; nothing else of this kind may be running."""

@@ -7,7 +7,7 @@ from typing import Literal
 
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.wire.collection import Parameter, Procedure
-from shapewright.studio.wire.values import Values
+from shapewright.studio.wire.values import Values, message_of
 
 
 @dataclass(eq=False)
@@ -53,11 +53,4 @@ class Authored:
 
     def procedure(self, stale: bool, fitted: str | None) -> Procedure:
         """As the page gets it."""
-        return Procedure(
-            state=self.state,
-            stale=stale,
-            name=self.name,
-            digest=self.digest,
-            fitted=fitted,
-            parameters=self.parameters,
-        )
+        return message_of(Procedure, self, stale=stale, fitted=fitted)

@@ -18,9 +18,11 @@ from shapewright.studio.project.listing import Listing
 from shapewright.studio.project.picture_store import Pictures
 from shapewright.studio.wire.collection import Collection, Group, Skipped, Stage, Tile
 from shapewright.studio.wire.problems import Problem, together
-from shapewright.studio.wire.values import Address, Slug
+from shapewright.studio.wire.values import Address, Slug, message_of
 
 Record = Mapping[str, Any]
+_RECORDED = ("distance", "iou", "chamfer", "compatible", "group", "parameters", "active", "at_limit")
+"""What the state of a reference takes from its entry in a run's record."""
 
 
 @dataclass(frozen=True)
@@ -40,27 +42,13 @@ class ReferenceState:
     stale: bool = False
     previous: float | None = None
     parameters: Parameters | None = None  # of the replica that is shown
-    active: tuple[str, ...] = ()  # names of those that matter
-    at_limit: tuple[str, ...] = ()
+    active: list[str] = field(default_factory=list)  # names of those that matter
+    at_limit: list[str] = field(default_factory=list)
     problem: Problem | None = None
 
     def tile(self, metric: Metric) -> Tile:
         """As the page gets it."""
-        return Tile(
-            slug=self.slug,
-            name=self.name,
-            reference=self.reference,
-            replica=self.replica,
-            distance=self.distance,
-            colour=tint(self.distance, metric),
-            compatible=self.compatible,
-            group=self.group,
-            stage=self.stage,
-            stale=self.stale,
-            previous=self.previous,
-            at_limit=list(self.at_limit),
-            problem=self.problem,
-        )
+        return message_of(Tile, self, colour=tint(self.distance, metric))
 
 
 @dataclass(frozen=True)
@@ -162,16 +150,9 @@ def _filled(state: ReferenceState, entry: Record, pictures: Pictures, folder: Pa
         state,
         reference=state.reference or pictures.add_file(address["reference"]),
         replica=pictures.add_file(address["replica"]),
-        distance=entry["distance"],
-        iou=entry["iou"],
-        chamfer=entry["chamfer"],
-        compatible=entry["compatible"],
-        group=entry["group"],
         stage="trained",
-        parameters=entry["parameters"],
-        active=tuple(entry["active"]),
-        at_limit=tuple(entry["at_limit"]),
         problem=_problem(entry["error"], state.slug) if entry["error"] else None,
+        **{field: entry[field] for field in _RECORDED},
     )
 
 

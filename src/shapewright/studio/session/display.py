@@ -167,8 +167,8 @@ class Display:
         self._change(
             message.slug,
             parameters=message.parameters,
-            active=tuple(message.active),
-            at_limit=tuple(message.at_limit),
+            active=message.active,
+            at_limit=message.at_limit,
             replica=self.pictures.add(payload),
             distance=None,
             stage=self._stage,

@@ -17,7 +17,7 @@ from shapewright.studio.session.history import source_of
 from shapewright.studio.session.session import Session
 from shapewright.studio.wire.collection import Parameter
 from shapewright.studio.wire.detail import About, Explanation, Reference
-from shapewright.studio.wire.values import Slug
+from shapewright.studio.wire.values import Slug, message_of
 from shapewright.studio.wire.work import Epoch, RunDetail
 
 _OF_SUGGESTIONS = {"title": "", "text": "", "snippet": None, "source": None, "gain": None, "tried": None}
@@ -33,27 +33,15 @@ def reference(session: Session, slug: Slug, about: About | None) -> Reference:
     names = {parameter.name for parameter in session.authored.parameters}
     path = session.display.listed.sources[slug].path
     inside = path.is_relative_to(session.project.folder)
-    return Reference(
-        slug=slug,
-        name=state.name,
+    return message_of(
+        Reference,
+        state,
         path=str(path.relative_to(session.project.folder) if inside else path),
         triangles=about.triangles if about else None,
         notes=about.notes if about else [],
         units=about.units if about else None,
-        parameters=state.parameters,
-        active=list(state.active),
-        at_limit=list(state.at_limit),
-        distance=state.distance,
-        iou=state.iou,
-        chamfer=state.chamfer,
         colour=tint(state.distance, session.display.board.metric),
-        compatible=state.compatible,
-        group=state.group,
-        stage=state.stage,
-        problem=state.problem,
-        predicted=_known(predicted.get("predicted"), names),
-        spread=_known(predicted.get("spread"), names),
-        likelihood=_known(predicted.get("likelihood"), names),
+        **{key: _known(predicted.get(key), names) for key in ("predicted", "spread", "likelihood")},
         explanation=explanation(session)["references"].get(slug) if session.explained else None,
     )
 

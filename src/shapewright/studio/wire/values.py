@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, TypeAlias, TypeVar
 
 import msgspec
 import numpy as np
@@ -18,10 +18,17 @@ Values: TypeAlias = Annotated[dict[str, Value], Meta(title="Values")]
 Vector: TypeAlias = Annotated[tuple[float, float, float], Meta(title="Vector")]
 Address: TypeAlias = Annotated[str, Meta(title="Address")]
 """A path on this server, such as ``/api/pictures/1f0c.png``: a picture there never changes."""
+Kind = TypeVar("Kind", bound=Struct)
 
 
 class Message(Struct, frozen=True, kw_only=True, tag_field="type"):
     """One message of the WebSocket. Its ``type`` says which."""
+
+
+def message_of(kind: type[Kind], source: object, **others: Any) -> Kind:
+    """A message of a kind: some fields are given, the others are those of ``source`` that have the same name."""
+    fields = {name: getattr(source, name) for name in kind.__struct_fields__ if name not in others}
+    return kind(**fields, **others)
 
 
 def encode(message: Any) -> bytes:
