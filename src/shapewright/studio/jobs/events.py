@@ -1,4 +1,4 @@
-"""What the program of a job reports to the server, and how."""
+"""What the program of a job reports to the server, and how it runs."""
 
 from __future__ import annotations
 
@@ -6,16 +6,20 @@ import os
 import signal
 import sys
 import threading
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, BinaryIO, NoReturn, TypeAlias
+from typing import Any, BinaryIO, TypeAlias
 
 from msgspec import Struct
 
+from shapewright.procedures import ProcedureError
 from shapewright.progress import AnswerKind, Progress
+from shapewright.references.errors import CollectionError
+from shapewright.runs.folder import RunError
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.problems import Problem, ProblemKind, of_error
-from shapewright.studio.wire.values import Values
-from shapewright.studio.wire.work import Epoch, JobResult
+from shapewright.studio.wire.values import Values, message_of
+from shapewright.studio.wire.work import Epoch, JobKind, JobResult
 
 
 class Event(Struct, frozen=True, kw_only=True, tag=True):
@@ -73,30 +77,18 @@ class Reporter:
             self.send(Guessed(kind=progress.answer_kind, answer=dict(progress.answer)))
             return
         losses = Epoch(**progress.losses) if progress.losses else None  # type: ignore[arg-type]
-        self.send(
-            Advanced(
-                stage=progress.stage, done=progress.done, total=progress.total, remark=progress.remark, losses=losses
-            )
-        )
-
-    def done(self, **result: Any) -> None:
-        """Report the result."""
-        self.send(Done(result=JobResult(**result)))
-
-    def fail(self, error: Exception, kind: ProblemKind, root: str) -> NoReturn:
-        """End the program with the problem that an error is.
-
-        root: folder that files are named relative to.
-        """
-        self.send(Failed(problem=of_error(error, kind, Path(root))))
-        sys.exit(1)
+        self.send(message_of(Advanced, progress, losses=losses))
 
 
-def begin() -> tuple[dict[str, Any], Reporter]:
-    """The request of the program that runs, and where it reports.
+ERRORS: tuple[type[Exception], ...] = (ProcedureError, RunError, ValueError, OSError)
+Work = Callable[[dict[str, Any], Reporter], JobResult]
+
+
+def run(kind: JobKind, work: Work, errors: tuple[type[Exception], ...] = ERRORS) -> None:
+    """Run the program of a job: do the work that the server requests, and report its result or why there is none.
 
     When the stream of requests closes the studio has ended; this program then ends too, with all that it started.
-    Live evaluation goes before it.
+    Live evaluation goes before it. errors: what becomes a problem that the author sees.
     """
     if hasattr(os, "nice"):
         os.nice(5)
@@ -113,4 +105,15 @@ def begin() -> tuple[dict[str, Any], Reporter]:
         os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
-    return frame[0], Reporter(events)
+    request, reporter = frame[0], Reporter(events)
+    try:
+        reporter.send(Done(result=work(request, reporter)))
+    except errors as error:
+        reporter.send(Failed(problem=of_error(error, _problem_kind(kind, error), Path(request["root"]))))
+        sys.exit(1)
+
+
+def _problem_kind(kind: JobKind, error: Exception) -> ProblemKind:
+    if kind == "fit" and isinstance(error, ProcedureError):
+        return "load"
+    return "references" if kind == "fit" and isinstance(error, CollectionError) else kind

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
-from shapewright.studio.jobs.events import Reporter, begin
+from shapewright.studio.jobs import events
 from shapewright.studio.jobs.fit_job import collection
 from shapewright.studio.project.listing import Origin
+from shapewright.studio.wire.work import JobResult
 
 
-def explain(run: Path, origin: Origin, reporter: Reporter) -> None:
-    """Explain a run and put that into its folder.
-
-    origin: of the references.
-    """
+def explain(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
+    """Explain a run and put that into its folder."""
     from shapewright.feedback.explanation import explain as explain_iteration
     from shapewright.feedback.record import record_of, write
     from shapewright.runs.folder import previous_run
@@ -21,25 +21,13 @@ def explain(run: Path, origin: Origin, reporter: Reporter) -> None:
     from shapewright.runs.iteration import Iteration
     from shapewright.storage import cache_folder
 
+    run, origin = Path(request["run"]), Origin(**request["origin"])
     iteration = Iteration.load(run)
     procedure = procedure_of(run, iteration)
     explanation = explain_iteration(iteration, procedure, collection(origin), reporter.progress, cache_folder())
     write(run, record_of(explanation), previous_run(run, set(iteration.names)))
-
-
-def main() -> None:
-    from shapewright.procedures import ProcedureError
-    from shapewright.references import CollectionError
-    from shapewright.runs.folder import RunError
-
-    request, reporter = begin()
-    run = Path(request["run"])
-    try:
-        explain(run, Origin(**request["origin"]), reporter)
-    except (ProcedureError, CollectionError, RunError, KeyError, ValueError, OSError) as error:
-        reporter.fail(error, "explain", request["root"])
-    reporter.done(run=run.name)
+    return JobResult(run=run.name)
 
 
 if __name__ == "__main__":
-    main()
+    events.run("explain", explain, (*events.ERRORS, KeyError))

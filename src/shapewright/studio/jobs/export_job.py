@@ -13,7 +13,8 @@ from urllib.parse import quote
 
 from shapewright.runs.folder import read_record
 from shapewright.storage import remove_leftovers, scratch_folder, whole_file
-from shapewright.studio.jobs.events import Reporter, begin
+from shapewright.studio.jobs import events
+from shapewright.studio.wire.work import JobResult
 
 if TYPE_CHECKING:
     from shapewright.shapes.files import Format
@@ -22,19 +23,19 @@ _KEPT = 5
 """Exports that are left in the project's scratch folder; older ones are deleted."""
 
 
-def pack(request: Mapping[str, Any], reporter: Reporter) -> Path:
+def pack(request: Mapping[str, Any], reporter: events.Reporter) -> Path:
     """Write the ZIP that a request describes; returns its path."""
     folder = Path(request["folder"])
     folder.mkdir(parents=True, exist_ok=True)
     run = Path(request["run"]) if request["run"] else None
-    stem = re.sub(r"[^A-Za-z0-9_-]+", "-", "-".join([Path(request["procedure"]).resolve().parent.name, *_names(run)]))
+    names = [Path(request["procedure"]).resolve().parent.name, *([run.name] if run else [])]
+    stem = re.sub(r"[^A-Za-z0-9_-]+", "-", "-".join(names))
     file = folder / f"{stem.strip('-')}-{time.strftime('%Y%m%d-%H%M%S')}.zip"
     remove_leftovers(folder)
     with whole_file(file) as unfinished, zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED) as archive:
-        if run and "report" in request["what"]:
-            archive.write(run / "report.html", "report.html")
-        if run and "parameters" in request["what"]:
-            archive.write(run / "parameters.csv", "parameters.csv")
+        for part, name in (("report", "report.html"), ("parameters", "parameters.csv")):
+            if run and part in request["what"]:
+                archive.write(run / name, name)
         if run and "replicas" in request["what"]:
             for name, data in _replicas(run, request["format"], reporter):
                 archive.writestr(f"replicas/{name}", data)
@@ -45,11 +46,7 @@ def pack(request: Mapping[str, Any], reporter: Reporter) -> Path:
     return file
 
 
-def _names(run: Path | None) -> list[str]:
-    return [run.name] if run else []
-
-
-def _replicas(run: Path, format: Format, reporter: Reporter) -> Iterator[tuple[str, bytes]]:
+def _replicas(run: Path, format: Format, reporter: events.Reporter) -> Iterator[tuple[str, bytes]]:
     """Names and contents of the replicas' files; each says in its extras which reference it replicates."""
     from shapewright.runs.result import read_replica
     from shapewright.shapes.files import encode
@@ -68,7 +65,7 @@ def _replicas(run: Path, format: Format, reporter: Reporter) -> Iterator[tuple[s
         reporter.stage("replicas", done + 1, len(entries))
 
 
-def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, reporter: Reporter) -> None:
+def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, reporter: events.Reporter) -> None:
     from shapewright.fitting.samples import write_samples
     from shapewright.procedures import load_procedure
 
@@ -86,18 +83,11 @@ def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, reporter:
             archive.write(path, f"samples/{path.name}")
 
 
-def main() -> None:
-    from shapewright.procedures import ProcedureError
-    from shapewright.runs.folder import RunError
-
-    request, reporter = begin()
-    try:
-        file = pack(request, reporter)
-    except (ProcedureError, RunError, ValueError, OSError) as error:
-        reporter.fail(error, "export", request["root"])
-    url = f"/api/exports/{quote(file.name)}"
-    reporter.done(url=url, bytes=file.stat().st_size)
+def export(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
+    """Pack what a request describes."""
+    file = pack(request, reporter)
+    return JobResult(url=f"/api/exports/{quote(file.name)}", bytes=file.stat().st_size)
 
 
 if __name__ == "__main__":
-    main()
+    events.run("export", export)

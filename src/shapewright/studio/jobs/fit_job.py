@@ -8,9 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from shapewright.studio.jobs.events import Reporter, begin
+from shapewright.studio.jobs import events
 from shapewright.studio.project.listing import Origin, listing
-from shapewright.studio.wire.problems import ProblemKind
+from shapewright.studio.wire.work import JobResult
 
 if TYPE_CHECKING:
     from shapewright.references import Collection
@@ -30,8 +30,8 @@ def collection(origin: Origin) -> Collection:
     return replace(whole, references=inside, skipped={**whole.skipped, **listed.skipped})
 
 
-def fit(request: Mapping[str, Any], reporter: Reporter) -> str:
-    """Fit as the request says and save the run; returns its name."""
+def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
+    """Fit as the request says and save the run."""
     from shapewright.fitting.fit import fit as iterate
     from shapewright.procedures import load_procedure
     from shapewright.report import write_report
@@ -51,7 +51,7 @@ def fit(request: Mapping[str, Any], reporter: Reporter) -> str:
     iteration.save(folder, lambda partial: write_report(partial, before))
     predictions = json.dumps(predicted(iteration), allow_nan=False)
     write_file(folder / PREDICTIONS, predictions)
-    return folder.name
+    return JobResult(run=folder.name)
 
 
 def predicted(iteration: Any) -> dict[str, Any]:
@@ -80,27 +80,5 @@ def _key(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
-def _kind(error: Exception) -> ProblemKind:
-    from shapewright.procedures import ProcedureError
-    from shapewright.references import CollectionError
-
-    if isinstance(error, ProcedureError):
-        return "load"
-    return "references" if isinstance(error, CollectionError) else "fit"
-
-
-def main() -> None:
-    from shapewright.procedures import ProcedureError
-    from shapewright.references import CollectionError
-    from shapewright.runs.folder import RunError
-
-    request, reporter = begin()
-    try:
-        name = fit(request, reporter)
-    except (ProcedureError, CollectionError, RunError, ValueError, OSError) as error:
-        reporter.fail(error, _kind(error), request["root"])
-    reporter.done(run=name)
-
-
 if __name__ == "__main__":
-    main()
+    events.run("fit", fit)
