@@ -15,17 +15,18 @@ from starlette.middleware import Middleware
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, HTMLResponse, Response
 from starlette.routing import Route, WebSocketRoute
-from starlette.websockets import WebSocket
+from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from shapewright.runs.folder import RunError
 from shapewright.studio.bench.client import BenchError
 from shapewright.studio.project.workspace import Conflict, Missing, ProjectError
 from shapewright.studio.server import routes as api
-from shapewright.studio.server.live import converse
 from shapewright.studio.server.security import Access, Guard
 from shapewright.studio.session.job_list import Refused
+from shapewright.studio.session.pages import Page
 from shapewright.studio.session.session import Session
-from shapewright.studio.wire.requests import Wrong
+from shapewright.studio.wire import requests
+from shapewright.studio.wire.changes import WrongMessage
 
 PAGE = Path(__file__).parents[1] / "page"
 _NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>shapewright studio</title>
@@ -65,7 +66,7 @@ def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
         return FileResponse(file, headers=api.KEEP)
 
     async def live(socket: WebSocket) -> None:
-        await converse(session, socket)
+        await _converse(session, socket)
 
     pages = [
         Route("/", index),
@@ -74,7 +75,7 @@ def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
         *api.routes(session),
     ]
     failures: dict[Any, Any] = {
-        Wrong: _failure(422),
+        requests.Wrong: _failure(422),
         Conflict: lambda _, error: _json(409, error=str(error), text=error.text, digest=error.digest),
         Refused: _failure(409),
         ProjectError: _failure(409),
@@ -86,6 +87,39 @@ def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
     }
     guard = Middleware(Guard, access=access)
     return Starlette(routes=pages, middleware=[guard], exception_handlers=failures, lifespan=lifespan)
+
+
+async def _converse(session: Session, socket: WebSocket) -> None:
+    """Serve one page until it goes."""
+    await socket.accept()
+    page = session.open_page()
+
+    async def speak() -> None:
+        while (message := await page.queue.get()) is not None:
+            await (socket.send_bytes(message) if isinstance(message, bytes) else socket.send_text(message))
+        await socket.close(1013)
+
+    speaker = asyncio.create_task(speak())
+    try:
+        while True:
+            _hear(session, page, await socket.receive_text())
+    except (WebSocketDisconnect, KeyError, RuntimeError):  # it went, sent bytes, or was given up as too slow
+        pass
+    finally:
+        speaker.cancel()
+        session.close_page(page)
+
+
+def _hear(session: Session, page: Page, text: str) -> None:
+    try:
+        message = requests.decode_page_message(text)
+        if isinstance(message, requests.Visible):
+            session.bench.put_first(message.slugs)
+            return
+        requests.check_known([message.slug], session.display.board.references)
+        session.bench.evaluate(page.number, message)
+    except requests.Wrong as error:
+        session.pages.send(page.number, WrongMessage(error=str(error)))
 
 
 def _failure(status: int) -> Callable[[Request, Exception], Response]:
