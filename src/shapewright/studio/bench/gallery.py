@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Generic, TypeVar
 
@@ -58,7 +58,7 @@ class Gallery:
 
     def picture(self, slug: str) -> bytes:
         """PNG of a reference, kept in the cache from now on. Raises as ``[]`` does."""
-        drawn = picture(self[slug].shape, PICTURE)
+        drawn = thumbnail(self[slug].shape, PICTURE)
         kept = kept_picture(self._cache, self.listed.sources[slug]) if self._cache else None
         if kept:
             kept.parent.mkdir(parents=True, exist_ok=True)
@@ -66,9 +66,13 @@ class Gallery:
         return drawn
 
 
-def picture(shape: Shape, size: int) -> bytes:
-    """PNG of a shape. Raises ValueError for one that cannot be drawn."""
-    return thumbnail(shape, size)
+def in_turn(slugs: Iterable[str], first: Callable[[], list[str]]) -> Iterator[str]:
+    """Each slug once, those before all others that are ``first`` when the next one is taken."""
+    remaining = dict.fromkeys(slugs)
+    while remaining:
+        slug = next((seen for seen in first() if seen in remaining), None) or next(iter(remaining))
+        del remaining[slug]
+        yield slug
 
 
 def shape_bytes(shape: Shape) -> int:

@@ -20,37 +20,10 @@ from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Shape
-from shapewright.studio.bench.gallery import Gallery, Shelf, shape_bytes
+from shapewright.studio.bench import messages, shape_messages
+from shapewright.studio.bench.gallery import Gallery, Shelf, in_turn, shape_bytes
 from shapewright.studio.bench.inbox import Inbox
-from shapewright.studio.bench.messages import (
-    Answer,
-    Answered,
-    Drawn,
-    End,
-    Fetch,
-    First,
-    Live,
-    LiveMessage,
-    Load,
-    Loaded,
-    Pictures,
-    Ready,
-    References,
-    Reply,
-    Request,
-    SweepOrder,
-    Unreadable,
-    Unusable,
-)
 from shapewright.studio.bench.residual_colours import ResidualColours
-from shapewright.studio.bench.shape_messages import (
-    about,
-    distance_message,
-    drawing_message,
-    mesh_message,
-    outcome,
-    residual_message,
-)
 from shapewright.studio.bench.sweep import Sweep
 from shapewright.studio.bench.workshop import Broken, Workshop
 from shapewright.studio.project.listing import Listing, listing
@@ -80,27 +53,27 @@ class Bench:
 
     def run(self) -> None:
         """Serve; tasks are moved on while no request waits."""
-        self._send(Ready())
+        self._send(messages.Ready())
         while True:
             request = self._inbox.take(wait=not self._tasks)
             match request:
                 case None:
                     self._advance(next(iter(self._tasks)))
-                case References():
+                case messages.References():
                     self._list(request)
-                case Pictures():
+                case messages.Pictures():
                     self._tasks["pictures"] = self._draw(request.slugs)
-                case First():
+                case messages.First():
                     self._first = request.slugs
-                case Load():
+                case messages.Load():
                     self._load(request)
-                case SweepOrder():
+                case messages.SweepOrder():
                     self._sweep(request)
-                case Live():
+                case messages.Live():
                     self._evaluate(request.client, request.evaluate)
-                case Fetch():
+                case messages.Fetch():
                     self._fetch(request)
-                case End():
+                case messages.End():
                     self._workshop.close()
                     return
 
@@ -111,12 +84,12 @@ class Bench:
             del self._tasks[name]
         except Broken as error:
             del self._tasks[name]
-            self._send(Unusable(load=None, problem=error.problem))
+            self._send(messages.Unusable(load=None, problem=error.problem))
 
-    def _send(self, message: Answer, payload: bytes = b"") -> None:
+    def _send(self, message: messages.Answer, payload: bytes = b"") -> None:
         write_frame(self._answers, message, payload)
 
-    def _list(self, request: References) -> None:
+    def _list(self, request: messages.References) -> None:
         self._cache = Path(request.cache) if request.cache else None
         self._settings = Settings(seed=request.seed, align=request.align)
         self._targets = Shelf(_MEMORY, _bytes)
@@ -126,32 +99,29 @@ class Bench:
             self._gallery = Gallery(Listing({}, {}), None)
 
     def _draw(self, slugs: list[Slug]) -> Iterator[None]:
-        remaining = dict.fromkeys(slug for slug in slugs if slug in self._gallery.listed.sources)
-        while remaining:
-            slug = next((seen for seen in self._first if seen in remaining), None) or next(iter(remaining))
-            del remaining[slug]
+        for slug in in_turn([slug for slug in slugs if slug in self._gallery.listed.sources], lambda: self._first):
             try:
-                self._send(Drawn(slug=slug), self._gallery.picture(slug))
+                self._send(messages.Drawn(slug=slug), self._gallery.picture(slug))
             except (UnreadableError, ValueError) as error:
-                self._send(Unreadable(slug=slug, reason=str(error)))
+                self._send(messages.Unreadable(slug=slug, reason=str(error)))
             yield
 
-    def _load(self, request: Load) -> None:
+    def _load(self, request: messages.Load) -> None:
         self._tasks.pop("sweep", None)
         path = Path(request.procedure)
         self._root = path.parent
         try:
             version = self._workshop.load(path, Limits(request.seconds, request.memory_mb))
         except Broken as error:
-            self._send(Unusable(load=request.load, problem=error.problem))
+            self._send(messages.Unusable(load=request.load, problem=error.problem))
         else:
-            self._send(Loaded(load=request.load, **vars(version)))
+            self._send(messages.Loaded(load=request.load, **vars(version)))
 
-    def _sweep(self, request: SweepOrder) -> None:
+    def _sweep(self, request: messages.SweepOrder) -> None:
         if self._workshop.open:
-            first = lambda: self._first  # noqa: E731 - it changes while the sweep goes on
-            sweep = Sweep(request.sweep, request.items, first, self._root, self._workshop, self._target, self._send)
-            self._tasks["sweep"] = sweep.run()
+            self._tasks["sweep"] = Sweep(
+                request.sweep, request.items, lambda: self._first, self._root, self._workshop, self._target, self._send
+            ).run()
 
     def _target(self, slug: Slug) -> Target | None:
         """None for a reference that is not there or cannot be read."""
@@ -169,8 +139,8 @@ class Bench:
             return
         number, slug = request.id, request.slug
 
-        def answer(message: LiveMessage | None, payload: bytes = b"") -> None:
-            self._send(Answered(client=client, message=message), payload)
+        def answer(message: messages.LiveMessage | None, payload: bytes = b"") -> None:
+            self._send(messages.Answered(client=client, message=message), payload)
 
         def fail(problem: Problem, active: list[str] | None = None) -> None:
             answer(FailedMessage(id=number, slug=slug, problem=problem, active=active))
@@ -188,16 +158,16 @@ class Bench:
             return
         assert made.shape is not None
         replica = made.shape.normalised()
-        head: dict[str, Any] = {"id": number, "slug": slug, "shape": "replica", **outcome(built)}
+        head: dict[str, Any] = {"id": number, "slug": slug, "shape": "replica", **shape_messages.outcome(built)}
         target = self._target(slug) if slug is not None else None
         if isinstance(replica, Mesh):
-            answer(None, mesh_message(replica, **head))
+            answer(None, shape_messages.mesh_message(replica, **head))
         else:
             reference = target.shape if target and isinstance(target.shape, Drawing) else None
-            answer(drawing_message(replica, reference, **head))
+            answer(shape_messages.drawing_message(replica, reference, **head))
         if slug is None or self._inbox.outdated:
             return
-        answer(distance_message(target.measures(replica) if target else Measures(), number, slug))
+        answer(shape_messages.distance_message(target.measures(replica) if target else Measures(), number, slug))
         if not request.residuals or self._inbox.outdated:
             return
         if target is None or not isinstance(target.shape, Mesh) or not isinstance(replica, Mesh):
@@ -205,27 +175,27 @@ class Bench:
         if self._colours is None or self._colours.reference is not target.shape:
             self._colours = ResidualColours(target.shape)
         for side, residual in self._colours.of(replica).items():
-            answer(None, residual_message(residual, id=number, slug=slug, shape=side))
+            answer(None, shape_messages.residual_message(residual, id=number, slug=slug, shape=side))
 
-    def _fetch(self, request: Fetch) -> None:
+    def _fetch(self, request: messages.Fetch) -> None:
         message: About | DrawingMessage | None = None
         payload, wrong = b"", None
         try:
             reference = self._gallery[request.slug]
             shape = reference.shape
             if request.what == "about":
-                message = about(reference)
+                message = shape_messages.about(reference)
             elif request.what == "render":
                 shape = self._replica(request.parameters) if request.parameters is not None else shape
                 camera = replace(THUMBNAIL, azimuth=request.azimuth, elevation=request.elevation)
                 payload = thumbnail(shape, request.size, camera)
             elif isinstance(shape, Mesh):
-                payload = mesh_message(shape, id=0, slug=request.slug, shape="reference")
+                payload = shape_messages.mesh_message(shape, id=0, slug=request.slug, shape="reference")
             else:
-                message = drawing_message(shape, None, id=0, slug=request.slug, shape="reference")
+                message = shape_messages.drawing_message(shape, None, id=0, slug=request.slug, shape="reference")
         except (KeyError, UnreadableError, ValueError, Broken) as error:
             wrong = str(error)
-        self._send(Reply(request=request.request, message=message, error=wrong), payload)
+        self._send(messages.Reply(request=request.request, message=message, error=wrong), payload)
 
     def _replica(self, parameters: Values) -> Shape:
         built = self._workshop.build(parameters) if self._workshop.open else None
@@ -245,9 +215,9 @@ def main() -> None:
     inbox = Inbox(workshop.interrupt)
 
     def listen() -> None:
-        while frame := read_frame(requests, Request):
+        while frame := read_frame(requests, messages.Request):
             inbox.put(frame[0])
-        inbox.put(End())
+        inbox.put(messages.End())
 
     threading.Thread(target=listen, daemon=True).start()
     try:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from shapewright.judging.target import Target
+from shapewright.rendering.thumbnails import thumbnail
 from shapewright.studio.bench.built import Built
-from shapewright.studio.bench.gallery import Shelf, picture, shape_bytes
+from shapewright.studio.bench.gallery import Shelf, in_turn, shape_bytes
 from shapewright.studio.bench.messages import Measured, News, SweepEnded, Swept
 from shapewright.studio.bench.shape_messages import plain
 from shapewright.studio.bench.workshop import Workshop
@@ -41,7 +42,7 @@ class Sweep:
         """
         shelf: Shelf[Built] = Shelf(_MEMORY, _bytes)
         late = 0
-        for slug in self._order():
+        for slug in in_turn(self.items, self.first):
             built = self.workshop.build(self.items[slug])
             if built is None:
                 return
@@ -53,7 +54,7 @@ class Sweep:
                 self.send(SweepEnded(sweep=self.number, given_up=True), b"")
                 return
             yield
-        for slug in self._order():
+        for slug in in_turn(self.items, self.first):
             again = shelf.get(slug) or self.workshop.build(self.items[slug])
             if again is None:
                 return
@@ -63,13 +64,6 @@ class Sweep:
                 self.send(Measured(sweep=self.number, slug=slug, distance=plain(distance)), b"")
             yield
         self.send(SweepEnded(sweep=self.number, given_up=False), b"")
-
-    def _order(self) -> Iterator[Slug]:
-        remaining = dict.fromkeys(self.items)
-        while remaining:
-            slug = next((seen for seen in self.first() if seen in remaining), None) or next(iter(remaining))
-            del remaining[slug]
-            yield slug
 
     def _send_built(self, slug: Slug, built: Built) -> None:
         made = built.build
@@ -81,7 +75,7 @@ class Sweep:
             at_limit=list(built.at_limit),
             problem=of_failure(made.failure, self.root, made.parameters) if made.failure else None,
         )
-        self.send(message, picture(made.shape, PICTURE) if made.shape is not None else b"")
+        self.send(message, thumbnail(made.shape, PICTURE) if made.shape is not None else b"")
 
 
 def _bytes(built: Built) -> int:

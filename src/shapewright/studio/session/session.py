@@ -13,17 +13,8 @@ from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import EXPLANATION, RunError
 from shapewright.runs.marks import pairs, replace_pairs
 from shapewright.storage import cache_folder
+from shapewright.studio.bench import messages
 from shapewright.studio.bench.client import BenchError
-from shapewright.studio.bench.messages import (
-    Drawn,
-    Loaded,
-    Measured,
-    News,
-    SweepEnded,
-    Swept,
-    Unreadable,
-    Unusable,
-)
 from shapewright.studio.jobs.runner import Runner
 from shapewright.studio.project.authored import Authored
 from shapewright.studio.project.preferences import Preferences
@@ -35,16 +26,7 @@ from shapewright.studio.session.history import summaries
 from shapewright.studio.session.job_list import JobList, Refused
 from shapewright.studio.session.pages import Page, Pages
 from shapewright.studio.session.problem_list import ProblemList
-from shapewright.studio.wire.changes import (
-    ChosenSettings,
-    ExplanationChanged,
-    MarksChanged,
-    ProcedureChanged,
-    ProjectNames,
-    RunsChanged,
-    SettingsChanged,
-    State,
-)
+from shapewright.studio.wire import changes
 from shapewright.studio.wire.collection import Mark, Procedure
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.work import Run
@@ -85,12 +67,12 @@ class Session:
 
     # What pages see
 
-    def state(self) -> State:
+    def state(self) -> changes.State:
         """All that a page shows."""
         project = self.project
-        return State(
+        return changes.State(
             version=version("shapewright"),
-            project=ProjectNames(
+            project=changes.ProjectNames(
                 name=project.folder.name,
                 folder=str(project.folder),
                 procedure=project.procedure.name,
@@ -149,12 +131,12 @@ class Session:
         self.pages.close(page)
         self.bench.forget(page.number)
 
-    def change_preferences(self, given: dict[str, Any]) -> ChosenSettings:
+    def change_preferences(self, given: dict[str, Any]) -> changes.ChosenSettings:
         """Raises ValueError for an entry that cannot be."""
         before, self.preferences = self.preferences, self.preferences.changed(given)
         if self.preferences.settings.seed != before.settings.seed:
             self.bench.list_references(self.preferences.settings)
-        self.pages.publish(SettingsChanged(settings=self.preferences.message()))
+        self.pages.publish(changes.SettingsChanged(settings=self.preferences.message()))
         return self.preferences.message()
 
     def set_marks(self, marks: list[Mark]) -> None:
@@ -162,7 +144,7 @@ class Session:
         names = {slug: state.name for slug, state in self.display.board.references.items()}
         wanted = [(names[mark.a], names[mark.b], mark.same) for mark in marks]
         replace_pairs(self.project.folder, wanted, set(names.values()), self.display.run)
-        self.pages.publish(MarksChanged(marks=self.marks()))
+        self.pages.publish(changes.MarksChanged(marks=self.marks()))
 
     async def fit(self, fresh: bool = False) -> None:
         """Start a fit; one that runs is ended first. Raises Refused."""
@@ -197,14 +179,14 @@ class Session:
         except ProjectError as error:
             self._break(Problem("project", str(error), self.project.procedure.name))
             return
-        self.pages.publish(ProcedureChanged(procedure=self._procedure()))
+        self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
         self.bench.load(self.preferences.settings)
 
     def _break(self, problem: Problem) -> None:
         self.authored.reject()
         self.display.stale()
         self.problems.report("procedure", [problem])
-        self.pages.publish(ProcedureChanged(procedure=self._procedure()))
+        self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
 
     # What the bench says
 
@@ -214,20 +196,20 @@ class Session:
             self.bench.list_references(self.preferences.settings)
             self.bench.load(self.preferences.settings)
 
-    def _heard(self, message: News, payload: bytes) -> None:
+    def _heard(self, message: messages.News, payload: bytes) -> None:
         match message:
-            case Drawn():
+            case messages.Drawn():
                 self.display.drawn(message.slug, payload)
-            case Unreadable():
+            case messages.Unreadable():
                 self.display.unreadable(message.slug, message.reason)
-            case Swept() | Measured() | SweepEnded():
+            case messages.Swept() | messages.Measured() | messages.SweepEnded():
                 self.display.take(message, payload)
-            case Loaded() if message.load == self.authored.load:
+            case messages.Loaded() if message.load == self.authored.load:
                 self._take_version(message)
-            case Unusable() if message.load in (None, self.authored.load):
+            case messages.Unusable() if message.load in (None, self.authored.load):
                 self._break(message.problem)
 
-    def _take_version(self, loaded: Loaded) -> None:
+    def _take_version(self, loaded: messages.Loaded) -> None:
         """Show the new version: a run of it where there is one, else the replicas of before, carried over."""
         saved, self.authored.saved = self.authored.saved, False
         self.authored.accept(loaded.name, loaded.parameters, loaded.defaults)
@@ -238,7 +220,7 @@ class Session:
                 self.display.show(fitted, self.metric)
         else:
             self.bench.sweep("carried", self.display.parameters)
-        self.pages.publish(ProcedureChanged(procedure=self._procedure()))
+        self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
         self.bench.evaluate_waiting()
         if saved and not fitted and self.preferences.auto_fit and self.display.listed.sources:
             self.jobs.spawn(self._fit_soon(self.authored.load))
@@ -257,10 +239,10 @@ class Session:
         if job.kind == "fit" and job.state == "done":
             self.display.show(self.display.newest(), self.metric)
             self.bench.sweep("carried", {})
-            self.pages.publish(ProcedureChanged(procedure=self._procedure()))
+            self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
         if job.kind in ("fit", "explain"):
-            self.pages.publish(RunsChanged(runs=self.runs()))
-            self.pages.publish(ExplanationChanged(explanation=self.explained))
+            self.pages.publish(changes.RunsChanged(runs=self.runs()))
+            self.pages.publish(changes.ExplanationChanged(explanation=self.explained))
 
     @property
     def metric(self) -> Metric:
