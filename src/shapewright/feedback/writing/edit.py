@@ -29,21 +29,13 @@ class NewParameter:
 
 @dataclass(frozen=True)
 class NewRule:
-    """A function to add to the file, and what the procedure makes of its shape with it.
+    """A function to add to the file, and what the procedure makes of its shape with it."""
 
-    Attributes:
-        parameters: the new ones.
-        function: its whole text; empty where the call needs none.
-        call: an expression for the changed shape, in which ``{shape}`` stands for the shape before.
-        flag: an expression that says whether the shape changes; None for always.
-        imports: the names that all of this needs, by module.
-    """
-
-    parameters: tuple[NewParameter, ...]
-    function: str
-    call: str
-    flag: str | None
-    imports: Mapping[str, tuple[str, ...]]
+    parameters: tuple[NewParameter, ...]  # the new ones
+    function: str  # its whole text; empty where the call needs none
+    call: str  # an expression for the changed shape, in which ``{shape}`` stands for the shape before
+    flag: str | None  # an expression that says whether the shape changes; None for always
+    imports: Mapping[str, tuple[str, ...]]  # the names that all of this needs, by module
 
 
 def with_range(

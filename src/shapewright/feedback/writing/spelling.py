@@ -31,17 +31,11 @@ _CENTRED = 2e-3  # of its extent: how far the middle of a frame may be from the 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A scalar or integer to add.
+    """A scalar or integer to add."""
 
-    Attributes:
-        name: of the new parameter.
-        values: what each misfit needs.
-        whole: whether it is an integer.
-    """
-
-    name: str
-    values: tuple[float, ...]
-    whole: bool = False
+    name: str  # of the new parameter
+    values: tuple[float, ...]  # what each misfit needs
+    whole: bool = False  # whether it is an integer
 
     def parameter(self, low: float, high: float, default: float, when: str | None) -> NewParameter:
         condition = f", when=lambda p: p.{when}" if when else ""

@@ -20,23 +20,14 @@ from shapewright.feedback.writing.spelling import LINE, Quantity, kit_functions,
 
 @dataclass(frozen=True)
 class Rule:
-    """A change as code.
+    """A change as code."""
 
-    Attributes:
-        name: of its function, or of its flag where it needs none.
-        flag: the binary that switches it on; None when the parameters' defaults leave the shape unchanged.
-        function: its text; empty where the call needs none.
-        call: an expression for the changed shape, in which ``{shape}`` stands for the shape before.
-        quantities: what becomes a parameter.
-        imports: the functions of the kit that it needs.
-    """
-
-    name: str
-    flag: str | None
-    function: str
-    call: str
-    quantities: tuple[Quantity, ...]
-    imports: tuple[str, ...]
+    name: str  # of its function, or of its flag where it needs none
+    flag: str | None  # the binary that switches it on; None when the parameters' defaults leave the shape unchanged
+    function: str  # its text; empty where the call needs none
+    call: str  # an expression for the changed shape, in which ``{shape}`` stands for the shape before
+    quantities: tuple[Quantity, ...]  # what becomes a parameter
+    imports: tuple[str, ...]  # the functions of the kit that it needs
 
     def spelled(self, ranges: Mapping[str, tuple[float, float, float]]) -> NewRule:
         """The rule with these ranges (low, high, default) of its quantities."""
