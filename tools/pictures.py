@@ -10,6 +10,7 @@ import contextlib
 import io
 import re
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -87,9 +88,9 @@ def ink(drawing: Drawing) -> Image.Image:
 
 def pieces(derivation: Derivation) -> Mesh:
     """Every box that a derivation ends in, labelled by its number."""
-    from shapewright.modelling.grammar.assembly import Leaf, apart
+    from shapewright.modelling.grammar.assembly import apart
 
-    leaves = [Leaf(leaf.box, str(i), leaf.made_by) for i, leaf in enumerate(derivation.leaves)]
+    leaves = [replace(leaf, label=str(i)) for i, leaf in enumerate(derivation.leaves)]
     return concatenate([apart([leaf], derivation.tolerance) for leaf in leaves])
 
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from manifold3d import Manifold
 
 from shapewright.modelling.arguments import SIDES
-from shapewright.modelling.deformation import Deformation
 from shapewright.modelling.facets import Surface, deformed
 from shapewright.modelling.grammar.boxes import Box
+from shapewright.modelling.grammar.expansion import Node
 from shapewright.modelling.grammar.forms import Fill, Round
 from shapewright.modelling.grammar.grid_union import unite
+from shapewright.modelling.solid.originals import owners_of
 from shapewright.modelling.solid.sections import without_repeats
 from shapewright.modelling.solid.solid import Solid, labelled, union
 from shapewright.shapes import Floats, Ints, Mesh, concatenate
@@ -25,20 +25,7 @@ _QUADS = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2
 _TRIANGLES = _QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(12, 3)
 
 
-class Leaf(NamedTuple):
-    """A finished box.
-
-    box: with its form and deformations.
-    label: of its faces, where a side has none of its own.
-    rule: name of the rule that made it.
-    """
-
-    box: Box
-    label: str
-    rule: str
-
-
-def mesh(leaves: Sequence[Leaf], tolerance: float) -> Mesh:
+def mesh(leaves: Sequence[Node], tolerance: float) -> Mesh:
     """The union of all as a mesh, deformed group by group, whose faces know their labels and rules.
 
     tolerance: how far facets may be from the smooth shape, a length.
@@ -47,13 +34,12 @@ def mesh(leaves: Sequence[Leaf], tolerance: float) -> Mesh:
     return (_united(leaves) if plain else None) or joined(leaves, tolerance).mesh()
 
 
-def joined(leaves: Sequence[Leaf], tolerance: float) -> Solid:
+def joined(leaves: Sequence[Node], tolerance: float) -> Solid:
     """The same as a solid."""
-    solid, _ = _join(leaves, 0, tolerance)
-    return solid or Solid(Manifold())
+    return _join(leaves, 0, tolerance)[0] or Solid(Manifold())
 
 
-def apart(leaves: Sequence[Leaf], tolerance: float) -> Mesh:
+def apart(leaves: Sequence[Node], tolerance: float) -> Mesh:
     """Every box's own closed surface, without any union. Raises ValueError where there are voids to be cut."""
     if any(leaf.box.is_void for leaf in leaves):
         raise ValueError("voids can only be cut out when boxes are joined")
@@ -63,15 +49,15 @@ def apart(leaves: Sequence[Leaf], tolerance: float) -> Mesh:
         if leaf.box.groups or not _is_plain(leaf.box):
             surface, names = _surface(leaf, tolerance)
             for deformations in (leaf.box.deformations, *(group.deformations for group in reversed(leaf.box.groups))):
-                surface = deformed(surface, deformations, tolerance) if deformations else surface
-            meshes.append(_made_by(leaf, surface, names))
+                surface = deformed(surface, deformations, tolerance)
+            meshes.append(_made_by(leaf, surface.points, *surface.triangles(), names))
     return concatenate(meshes)
 
 
-def _join(leaves: Sequence[Leaf], depth: int, tolerance: float) -> tuple[Solid | None, Solid | None]:
+def _join(leaves: Sequence[Node], depth: int, tolerance: float) -> tuple[Solid | None, Solid | None]:
     """The union of leaves that share their first ``depth`` groups, and the union of the voids among them."""
     here = [leaf for leaf in leaves if len(leaf.box.groups) == depth]
-    inner: dict[object, list[Leaf]] = {}
+    inner: dict[object, list[Node]] = {}
     for leaf in leaves:
         if len(leaf.box.groups) > depth:
             inner.setdefault(leaf.box.groups[depth], []).append(leaf)
@@ -94,20 +80,15 @@ def _join(leaves: Sequence[Leaf], depth: int, tolerance: float) -> tuple[Solid |
     return union(*solids) if solids else None, union(*voids) if voids else None
 
 
-def _bent(leaves: Sequence[Leaf], depth: int, tolerance: float) -> Solid | None:
+def _bent(leaves: Sequence[Node], depth: int, tolerance: float) -> Solid | None:
     """A group of plain boxes united and deformed without booleans, if it is one."""
-    if not all(len(leaf.box.groups) == depth + 1 and _is_plain(leaf.box) and not leaf.box.is_void for leaf in leaves):
-        return None
-    united = _united(leaves)
+    plain = all(len(leaf.box.groups) == depth + 1 and _is_plain(leaf.box) and not leaf.box.is_void for leaf in leaves)
+    united = _united(leaves) if plain else None
     if not united:
         return None
     surface = Surface.of_triangles(united.vertices, united.faces, np.arange(len(united.faces)))
-    bent = _deformed(surface, leaves[0].box.groups[depth].deformations, tolerance)
+    bent = deformed(surface, leaves[0].box.groups[depth].deformations, tolerance)
     return _solid(united.remade(bent.points, *bent.triangles()), len(surface.points))
-
-
-def _deformed(surface: Surface, deformations: Sequence[Deformation], tolerance: float) -> Surface:
-    return deformed(surface, deformations, tolerance) if deformations else surface
 
 
 def _solid(mesh: Mesh, points: int) -> Solid:
@@ -116,25 +97,27 @@ def _solid(mesh: Mesh, points: int) -> Solid:
     return solid.simplified() if len(mesh.vertices) > points else solid
 
 
-def _solids(leaves: Sequence[Leaf], tolerance: float) -> list[Solid]:
+def _solids(leaves: Sequence[Node], tolerance: float) -> list[Solid]:
     """The plain ones among leaves as one solid, if they can be stitched, and each of the others as its own."""
     plain = [leaf for leaf in leaves if _is_plain(leaf.box)]
     united = _united(plain) if len(plain) > 1 else None
     if not united:
         return [_leaf_solid(leaf, tolerance) for leaf in leaves]
     others = [_leaf_solid(leaf, tolerance) for leaf in leaves if not _is_plain(leaf.box)]
-    return [labelled(united), *others]
+    return [labelled(united), *others]  # in this order, in which the originals of manifold3d are numbered
 
 
-def _united(leaves: Sequence[Leaf]) -> Mesh | None:
+def _united(leaves: Sequence[Node]) -> Mesh | None:
     """The union of plain boxes, if it can be stitched without booleans."""
+    owners, _ = _numbered([leaf.label for leaf in leaves])
+    united = unite(*_ends(leaves), owners)
+    return _of_leaves(leaves, *united) if united else None
+
+
+def _of_leaves(leaves: Sequence[Node], points: Floats, faces: Ints, boxes: Ints) -> Mesh:
+    """The mesh of these points and faces, which knows its labels and rules. boxes: (F,), the leaf of each face."""
     owners, labels = _numbered([leaf.label for leaf in leaves])
-    makers, rules = _numbered([leaf.rule for leaf in leaves])
-    low, high = (np.array([getattr(leaf.box, end) for leaf in leaves]) for end in ("low", "high"))
-    united = unite(low, high, owners)
-    if not united:
-        return None
-    points, faces, boxes = united
+    makers, rules = _numbered([leaf.made_by for leaf in leaves])
     return Mesh(points, faces, owners[boxes], labels, makers[boxes], rules)
 
 
@@ -144,13 +127,12 @@ def _numbered(names: Sequence[str]) -> tuple[Ints, tuple[str, ...]]:
     return np.array([different.index(name) for name in names]), different
 
 
-def _made_by(leaf: Leaf, surface: Surface, names: tuple[str, ...]) -> Mesh:
-    """The triangles of a leaf's surface."""
-    faces, owners = surface.triangles()
-    return Mesh(surface.points, faces, owners, names, np.zeros(len(faces), dtype=np.int64), (leaf.rule,))
+def _made_by(leaf: Node, points: Floats, faces: Ints, owners: Ints, names: tuple[str, ...]) -> Mesh:
+    """The triangles of a leaf. owners: (F,), indices of names."""
+    return Mesh(points, faces, owners, names, np.zeros(len(faces), dtype=np.int64), (leaf.made_by,))
 
 
-def _leaf_solid(leaf: Leaf, tolerance: float) -> Solid:
+def _leaf_solid(leaf: Node, tolerance: float) -> Solid:
     box = leaf.box
     if isinstance(box.form, Fill):
         solid = _filled(leaf, box.form)
@@ -158,28 +140,27 @@ def _leaf_solid(leaf: Leaf, tolerance: float) -> Solid:
     if _is_plain(box):
         return labelled(_boxes([leaf]))
     surface, names = _surface(leaf, tolerance)
-    return _solid(_made_by(leaf, _deformed(surface, box.deformations, tolerance), names), len(surface.points))
+    bent = deformed(surface, box.deformations, tolerance)
+    return _solid(_made_by(leaf, bent.points, *bent.triangles(), names), len(surface.points))
 
 
-def _surface(leaf: Leaf, tolerance: float) -> tuple[Surface, tuple[str, ...]]:
+def _surface(leaf: Node, tolerance: float) -> tuple[Surface, tuple[str, ...]]:
     """The surface of a leaf before its own deformations, and the labels that its owners stand for."""
     box, name = leaf.box, leaf.label
     if isinstance(box.form, Fill):
         mesh = _filled(leaf, box.form).mesh()
         assert mesh.face_labels is not None
-        surface, names = Surface.of_triangles(mesh.vertices, mesh.faces, mesh.face_labels), mesh.label_names
-    else:
-        surface = _rounded(box, box.form, tolerance) if box.form else _plain(box)
-        sides = dict(box.names)
-        names = tuple(dict.fromkeys([name, *(label for side, label in sides.items() if side)]))
-        owners = np.array([names.index(sides.get(side, name)) for side in SIDES])
-        surface = replace(surface, owners=owners[surface.owners])
-    return surface, names
+        return Surface.of_triangles(mesh.vertices, mesh.faces, mesh.face_labels), mesh.label_names
+    surface = _rounded(box, box.form, tolerance) if box.form else _plain(leaf)
+    sides = dict(box.names)
+    names = tuple(dict.fromkeys([name, *(label for side, label in sides.items() if side)]))
+    owners = np.array([names.index(sides.get(side, name)) for side in SIDES])
+    return replace(surface, owners=owners[surface.owners]), names
 
 
-def _plain(box: Box) -> Surface:
-    owners = np.array([_side_towards(box, axis, sign) for axis in range(3) for sign in (-1, 1)])
-    return Surface(_corner_points([box])[0], _QUADS.ravel(), np.arange(0, 25, 4), owners)
+def _plain(leaf: Node) -> Surface:
+    owners = np.array([_side_towards(leaf.box, axis, sign) for axis in range(3) for sign in (-1, 1)])
+    return Surface(_corner_points([leaf])[0], _QUADS.ravel(), np.arange(0, 25, 4), owners)
 
 
 def _rounded(box: Box, form: Round, tolerance: float) -> Surface:
@@ -199,11 +180,8 @@ def _rounded(box: Box, form: Round, tolerance: float) -> Surface:
     ring = without_repeats(ring if form.axis != 1 else ring[::-1])  # x and z, seen from above, turn the other way
     count = len(ring)
     points = np.empty((2, count, 3))
-    points[..., [u, v]], points[0, :, form.axis], points[1, :, form.axis] = (
-        ring,
-        box.low[form.axis],
-        box.high[form.axis],
-    )
+    points[..., [u, v]] = ring
+    points[:, :, form.axis] = [[box.low[form.axis]], [box.high[form.axis]]]
     here = np.arange(count)
     after = np.roll(here, -1)
     sides = np.stack([here, after, after + count, here + count], axis=1)
@@ -222,7 +200,7 @@ def _side_towards(box: Box, axis: int, sign: int) -> int:
     return 2 * axis + (sign * box.facing[axis] > 0)
 
 
-def _filled(leaf: Leaf, form: Fill) -> Solid:
+def _filled(leaf: Node, form: Fill) -> Solid:
     box = leaf.box
     low, high = np.array(box.low), np.array(box.high)
     solid = form.make(tuple(high - low), **dict(form.arguments))
@@ -232,29 +210,29 @@ def _filled(leaf: Leaf, form: Fill) -> Solid:
     solid = solid.translate((low + high) / 2.0)
     if not solid.labels or dict(box.names).get(None):
         solid = solid.label(leaf.label)
-        return replace(solid, rules=dict.fromkeys(solid.labels, leaf.rule))
+        return replace(solid, rules=dict.fromkeys(solid.labels, leaf.made_by))
     mesh = solid.manifold.to_mesh64()
     names = tuple(solid.labels.get(original, leaf.label) for original in mesh.run_original_id)
-    owners = np.repeat(np.arange(len(names)), np.diff(mesh.run_index) // 3)
-    made = np.zeros(len(owners), dtype=np.int64)
     points, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
-    return labelled(Mesh(points, faces, owners, names, made, (leaf.rule,)))
+    return labelled(_made_by(leaf, points, faces, owners_of(mesh), names))
 
 
-def _boxes(leaves: Sequence[Leaf]) -> Mesh:
+def _boxes(leaves: Sequence[Node]) -> Mesh:
     """The surfaces of plain boxes."""
-    owners, labels = _numbered([leaf.label for leaf in leaves])
-    makers, rules = _numbered([leaf.rule for leaf in leaves])
-    points = _corner_points([leaf.box for leaf in leaves])
-    faces = _TRIANGLES + 8 * np.arange(len(leaves))[:, None, None]
-    numbers = np.repeat(np.arange(len(leaves)), 12)
-    return Mesh(points.reshape(-1, 3), faces.reshape(-1, 3), owners[numbers], labels, makers[numbers], rules)
+    numbers = np.arange(len(leaves))
+    faces = _TRIANGLES + 8 * numbers[:, None, None]
+    return _of_leaves(leaves, _corner_points(leaves).reshape(-1, 3), faces.reshape(-1, 3), np.repeat(numbers, 12))
 
 
-def _corner_points(boxes: Sequence[Box]) -> Floats:
+def _corner_points(leaves: Sequence[Node]) -> Floats:
     """(B, 8, 3)"""
-    low, high = np.array([box.low for box in boxes]), np.array([box.high for box in boxes])
+    low, high = _ends(leaves)
     return np.where(_CORNERS, high[:, None], low[:, None])
+
+
+def _ends(leaves: Sequence[Node]) -> tuple[Floats, Floats]:
+    """The least and the greatest corners (B, 3)."""
+    return np.array([leaf.box.low for leaf in leaves]), np.array([leaf.box.high for leaf in leaves])
 
 
 def _is_plain(box: Box) -> bool:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import Literal
 
 from shapewright.modelling.grammar.expansion import GrammarError, Node
 from shapewright.modelling.solid.solid import Solid
@@ -44,21 +44,21 @@ class Derivation:
         """
         from shapewright.modelling.grammar import assembly  # compiled code, which takes a while to load
 
-        made = (assembly.mesh if join else assembly.apart)(self._leaves(), self.tolerance)
+        made = (assembly.mesh if join else assembly.apart)(self._done(), self.tolerance)
         return replace(made, face_labels=made.face_rules, label_names=made.rule_names) if by == "rule" else made
 
     def solid(self) -> Solid:
         """The shape as a solid of the kit, for further work; its mesh knows the rules too."""
-        return self._solid(self._leaves())
+        return self._solid(self._done())
 
     @property
     def label_names(self) -> tuple[str, ...]:
         """The labels of its boxes."""
-        return tuple(dict.fromkeys(leaf.label for leaf in self._leaves() if leaf.label))
+        return tuple(dict.fromkeys(leaf.label for leaf in self._done() if leaf.label))
 
     def part(self, name: str) -> Solid:
         """The boxes that bear a label, as a solid: ``part("top").bounds``. Raises ValueError when there is none."""
-        found = [leaf for leaf in self._leaves() if leaf.label == name]
+        found = [leaf for leaf in self._done() if leaf.label == name]
         if not found:
             labels = ", ".join(self.label_names) or "none"
             raise ValueError(f"part: no box is labelled {name!r}; the labels are: {labels}")
@@ -66,7 +66,7 @@ class Derivation:
 
     def without(self, *names: str) -> Solid:
         """The shape without the boxes that bear these labels, as a solid; empty when nothing is left."""
-        return self._solid([leaf for leaf in self._leaves() if leaf.label not in names])
+        return self._solid([leaf for leaf in self._done() if leaf.label not in names])
 
     def __or__(self, other: Solid) -> Solid:
         """Union with a solid."""
@@ -77,17 +77,16 @@ class Derivation:
         """(2, 3): the least and the greatest corner."""
         return self.solid().bounds
 
-    def _solid(self, leaves: list[Any]) -> Solid:
+    def _solid(self, leaves: Sequence[Node]) -> Solid:
         from shapewright.modelling.grammar.assembly import joined
 
         return joined(leaves, self.tolerance)
 
-    def _leaves(self) -> list[Any]:
-        from shapewright.modelling.grammar.assembly import Leaf
-
+    def _done(self) -> tuple[Node, ...]:
+        """The boxes that are done, of which there must be one."""
         if not self.leaves:
             raise GrammarError(f"nothing is left: no rule yields a box that is done\n{self}")
-        return [Leaf(node.box, node.label, node.made_by) for node in self.leaves]
+        return self.leaves
 
     def __str__(self) -> str:
         """The tree, a box a line: its tag, size and place, and the rule that was applied to it."""
