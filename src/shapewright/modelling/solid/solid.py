@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from manifold3d import Error, Manifold, Mesh64, OpType
@@ -12,15 +11,11 @@ from manifold3d import Error, Manifold, Mesh64, OpType
 from shapewright.modelling import arguments, deformation, verbs
 from shapewright.modelling.arguments import ORIGIN, Axis, Direction, Vector
 from shapewright.modelling.curves import TOLERANCE
+from shapewright.modelling.deformation import Deformation
 from shapewright.modelling.solid.alignment import aligned
 from shapewright.modelling.solid.originals import given_ids, has_ids, manifold_of, owners_of, rule_ids, triangles
 from shapewright.shapes import Floats, Ints, Mesh
 from shapewright.shapes.slivers import SLIVER, has_slivers, heights, without_slivers
-
-if TYPE_CHECKING:
-    from shapewright.modelling.deformation import Deformation
-
-Split: TypeAlias = "Callable[[], tuple[Solid, ...]]"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,7 +31,7 @@ class Solid:
 
     manifold: Manifold
     labels: Mapping[int, str] = field(default_factory=dict)
-    split: Split | None = field(default=None, repr=False)
+    split: Callable[[], tuple[Solid, ...]] | None = field(default=None, repr=False)
     rules: Mapping[int, str] = field(default_factory=dict, repr=False)
 
     @property
@@ -72,25 +67,19 @@ class Solid:
 
     def __or__(self, other: Solid) -> Solid:
         """Union."""
-        if not isinstance(other, Solid):
-            return NotImplemented
-        return union(self, other)
+        return union(self, other) if isinstance(other, Solid) else NotImplemented
 
     def __and__(self, other: Solid) -> Solid:
         """Intersection."""
-        if not isinstance(other, Solid):
-            return NotImplemented
-        return self._joined(other, Manifold.__xor__, -1, self._each(lambda piece: piece & other))
+        return self._joined(other, Manifold.__xor__, -1, lambda piece: piece & other)
 
     def __sub__(self, other: Solid) -> Solid:
         """Difference; the faces of a cut bear the label of what cut them."""
-        if not isinstance(other, Solid):
-            return NotImplemented
-        return self._joined(other, Manifold.__sub__, 1, self._each(lambda piece: piece - other))
+        return self._joined(other, Manifold.__sub__, 1, lambda piece: piece - other)
 
     def translate(self, by: Vector) -> Solid:
         step = arguments.vector("translate", "by", by)
-        return self._moved(self.manifold.translate(step), self._each(lambda piece: piece.translate(step)))
+        return self._moved(self.manifold.translate(step), lambda piece: piece.translate(step))
 
     def rotate(self, degrees: float, axis: Axis = "y", about: Vector = ORIGIN) -> Solid:
         turn, (x, y, z) = arguments.number("rotate", "degrees", degrees), _unit("rotate", axis)
@@ -144,14 +133,13 @@ class Solid:
         faces, origins = surface.triangles()
         face_ids = given_ids(mesh)[origins] if has_ids(self.rules) else None
         made = manifold_of(surface.points, faces, owners[origins], mesh.run_original_id, face_ids)
-        return self._moved(made, self._each(lambda piece: piece.deformed(deformations, tolerance))).simplified()
+        return self._moved(made, lambda piece: piece.deformed(deformations, tolerance)).simplified()
 
     def simplified(self) -> Solid:
         """The solid without points that its shape does not need, within a millionth of its largest extent."""
         if self.checked().manifold.is_empty():
             return self
-        least = SLIVER * float(np.ptp(self.bounds, axis=0).max())
-        return replace(self, manifold=self.manifold.simplify(least))
+        return replace(self, manifold=self.manifold.simplify(SLIVER * self._extent))
 
     def mesh(self) -> Mesh:
         """Closed triangles, wound counter-clockwise seen from outside, with the labels; without faces if empty.
@@ -160,10 +148,7 @@ class Solid:
         """
         if self.checked().manifold.is_empty():
             return Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
-        mesh, least = (
-            triangles(self.manifold, self.labels, self.rules),
-            SLIVER * float(np.ptp(self.bounds, axis=0).max()),
-        )
+        mesh, least = triangles(self.manifold, self.labels, self.rules), SLIVER * self._extent
         if not has_slivers(mesh.triangles, least):
             return mesh
         mesh = self._mended(least)  # booleans of flush faces leave triangles without area
@@ -195,24 +180,30 @@ class Solid:
             raise ValueError("an empty solid has no bounds")
         return np.array(self.manifold.bounding_box(), dtype=np.float64).reshape(2, 3)
 
+    @property
+    def _extent(self) -> float:
+        return float(np.ptp(self.bounds, axis=0).max())
+
     def _about(self, function: str, about: Vector, move: Callable[[Manifold], Manifold]) -> Solid:
         x, y, z = arguments.vector(function, "about", about)
-        split = self._each(lambda piece: piece._about(function, about, move))
-        if x == y == z == 0.0:
-            return self._moved(move(self.manifold), split)
-        return self._moved(move(self.manifold.translate((-x, -y, -z))).translate((x, y, z)), split)
+        centred = x == y == z == 0.0
+        made = move(self.manifold) if centred else move(self.manifold.translate((-x, -y, -z))).translate((x, y, z))
+        return self._moved(made, lambda piece: piece._about(function, about, move))
 
-    def _moved(self, manifold: Manifold, split: Split | None) -> Solid:
-        return Solid(manifold, self.labels, split, self.rules)
-
-    def _joined(self, other: Solid, boolean: Callable[..., Manifold], facing: int, split: Split | None) -> Solid:
+    def _joined(
+        self, other: Solid, boolean: Callable[..., Manifold], facing: int, change: Callable[[Solid], Solid]
+    ) -> Solid:
+        """What a boolean makes of it and another. change: what makes the same of a piece of it."""
+        if not isinstance(other, Solid):
+            return NotImplemented
         rules = {**self.rules, **other.rules}
         made = boolean(*aligned((self.manifold, other.manifold), facing, has_ids(rules)))
-        return Solid(made, {**self.labels, **other.labels}, split, rules)
+        return replace(self._moved(made, change), labels={**self.labels, **other.labels}, rules=rules)
 
-    def _each(self, change: Callable[[Solid], Solid]) -> Split | None:
-        """The pieces after a change, made when they are asked for."""
-        return (lambda: tuple(change(piece) for piece in self.pieces)) if self.split else None
+    def _moved(self, manifold: Manifold, change: Callable[[Solid], Solid]) -> Solid:
+        """The same solid with another manifold. change: what makes the same of a piece, when pieces are asked for."""
+        pieces = (lambda: tuple(change(piece) for piece in self.pieces)) if self.split else None
+        return Solid(manifold, self.labels, pieces, self.rules)
 
     @property
     def _domain(self) -> deformation.Domain:
@@ -222,11 +213,10 @@ class Solid:
     def _deformed(self, by: Deformation, tolerance: float) -> Solid:
         if isinstance(by, deformation.Bend) and by.degrees == 0.0:
             return self
-        slack = arguments.positive("deform", "tolerance", tolerance) * float(np.ptp(self.bounds, axis=0).max())
-        return self.deformed((by,), slack)
+        return self.deformed((by,), arguments.positive("deform", "tolerance", tolerance) * self._extent)
 
     def __repr__(self) -> str:
-        return f"Solid({', '.join([f'{self.manifold.num_tri()} triangles', *dict.fromkeys(self.labels.values())])})"
+        return f"Solid({', '.join([f'{self.manifold.num_tri()} triangles', *self.label_names])})"
 
 
 def union(*solids: Solid) -> Solid:
