@@ -20,7 +20,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from shapewright.modelling import arguments
-from shapewright.modelling.arguments import SIDES, Axis, Point, Side
+from shapewright.modelling.arguments import SIDES, Axis, Point, Side, point
 from shapewright.modelling.solid.solid import Solid
 from shapewright.shapes import Floats
 
@@ -112,7 +112,7 @@ def face(part: Bounded, side: Side) -> Space:
 
 
 def _spanning(low: Floats, high: Floats) -> Space:
-    return Space(_point(high - low), _point((low + high) / 2.0))
+    return Space(point(high - low), point((low + high) / 2.0))
 
 
 def _space(function: str, part: Bounded, size: Size, places: Sequence[Place], outside: Side | None = None) -> Space:
@@ -128,7 +128,8 @@ def _space(function: str, part: Bounded, size: Size, places: Sequence[Place], ou
         if lengths[axis] is None:
             raise ValueError(f"{function}: size={size!r} must say how far the space reaches from the {outside}")
         space[axis] = extent, float(bounds[end, axis]) + (extent / 2.0 if end else -extent / 2.0)
-    return Space(_point([extent for extent, _ in space]), _point([centre for _, centre in space]))
+    extents, centres = zip(*space, strict=True)
+    return Space(point(extents), point(centres))
 
 
 def _along(function: str, axis: int, ends: Floats, length: float | None, place: Place) -> tuple[float, float]:
@@ -144,8 +145,3 @@ def _along(function: str, axis: int, ends: Floats, length: float | None, place: 
     if place not in (near, far):
         raise ValueError(f"{function}: {name}={place!r} must be a number, {near!r}, {far!r} or a part")
     return extent, high - extent / 2.0 if place == far else low + extent / 2.0
-
-
-def _point(values: Sequence[float] | Floats) -> Point:
-    x, y, z = map(float, values)
-    return x, y, z

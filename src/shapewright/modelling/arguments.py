@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -41,9 +41,14 @@ def count(function: str, value: int, least: int, name: str = "count") -> int:
     return int(value)
 
 
+def point(values: Iterable[float]) -> Point:
+    x, y, z = map(float, values)
+    return x, y, z
+
+
 def vector(function: str, name: str, value: Vector) -> Point:
     try:
-        x, y, z = map(float, value)
+        x, y, z = point(value)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{function}: {name}={value!r} must be three numbers (x, y, z)") from error
     if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):

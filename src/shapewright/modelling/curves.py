@@ -13,9 +13,7 @@ from numpy.typing import ArrayLike
 from shapewright.modelling.arguments import positive
 from shapewright.shapes import Floats
 
-TOLERANCE = 0.0025
-"""How far a smooth shape may be from its facets, as a part of its largest extent: a pixel in a picture of 400."""
-
+TOLERANCE = 0.0025  # facets from a smooth shape, as a part of its largest extent: a pixel in a picture of 400
 _SAMPLES, _MOST = 33, 96
 
 
@@ -53,11 +51,11 @@ def bernstein(control: ArrayLike, t: Floats) -> Floats:
 @lru_cache(maxsize=32)
 def _power_basis(count: int) -> Floats:
     """(K, K): from the control points of a Bezier curve to its coefficients of t to the power of 0, 1, ..."""
-    basis = np.zeros((count, count))
-    for power in range(count):
-        for k in range(power + 1):
-            basis[power, k] = (-1) ** (power - k) * math.comb(count - 1, power) * math.comb(power, k)
-    return basis
+    rows = [
+        [(-1) ** (power + k) * math.comb(count - 1, power) * math.comb(power, k) for k in range(count)]
+        for power in range(count)
+    ]
+    return np.array(rows, dtype=np.float64)
 
 
 def bezier(*control: Sequence[float], tolerance: float = TOLERANCE) -> Floats:
@@ -109,13 +107,13 @@ def _slopes(points: Floats, times: Floats, closed: bool) -> Floats:
     """Derivatives (N, D) at the points of the parabolas through each and its neighbours."""
     step = np.diff(times)[:, None]
     rise = np.diff(points, axis=0) / step
-    if closed:
-        before, after = np.roll(rise, 1, axis=0), rise
-        inner = (before * step + after * np.roll(step, 1, axis=0)) / (step + np.roll(step, 1, axis=0))
-        return np.concatenate([inner, inner[:1]])
-    if len(points) == 2:
+    if len(rise) == 1:
         return np.concatenate([rise, rise])
+    if closed:
+        step, rise = np.concatenate([step[-1:], step]), np.concatenate([rise[-1:], rise])
     inner = (rise[:-1] * step[1:] + rise[1:] * step[:-1]) / (step[1:] + step[:-1])
+    if closed:
+        return np.concatenate([inner, inner[:1]])
     return np.concatenate([2.0 * rise[:1] - inner[:1], inner, 2.0 * rise[-1:] - inner[-1:]])
 
 

@@ -20,17 +20,11 @@ from shapewright.shapes import Floats
 
 
 class Domain(NamedTuple):
-    """A box in space.
+    """A box in space."""
 
-    Attributes:
-        low: its corner with the least coordinates.
-        high: its corner with the greatest.
-        facing: 1 along each axis, or -1 where it faces, and names its ends, against the axis.
-    """
-
-    low: Point
-    high: Point
-    facing: tuple[int, int, int] = (1, 1, 1)
+    low: Point  # its corner with the least coordinates
+    high: Point  # its corner with the greatest
+    facing: tuple[int, int, int] = (1, 1, 1)  # -1 where it faces, and names its ends, against the axis
 
     @property
     def centre(self) -> Point:
@@ -61,19 +55,12 @@ class Domain(NamedTuple):
 
 
 class Along(NamedTuple):
-    """An axis of a domain, on which t runs from 0 to 1.
+    """An axis of a domain, on which t runs from 0 to 1."""
 
-    Attributes:
-        axis: its index.
-        start: the coordinate at t = 0.
-        length: from there to t = 1; negative where the axis runs down.
-        centre: of the domain.
-    """
-
-    axis: int
-    start: float
-    length: float
-    centre: Point
+    axis: int  # its index
+    start: float  # the coordinate at t = 0
+    length: float  # from there to t = 1; negative where the axis runs down
+    centre: Point  # of the domain
 
     def t(self, points: Floats) -> Floats:
         return np.asarray(np.clip((points[:, self.axis] - self.start) / self.length, 0.0, 1.0))
@@ -118,7 +105,7 @@ class Twist:
 
     def __call__(self, points: Floats) -> Floats:
         angle = math.radians(self.degrees) * self.along.t(points)
-        u, v = ((1, 2), (2, 0), (0, 1))[self.along.axis]
+        u, v = (self.along.axis + 1) % 3, (self.along.axis + 2) % 3
         x, y = points[:, u] - self.along.centre[u], points[:, v] - self.along.centre[v]
         moved = points.copy()
         moved[:, u] = self.along.centre[u] + np.cos(angle) * x - np.sin(angle) * y
@@ -128,21 +115,13 @@ class Twist:
 
 @dataclass(frozen=True, slots=True)
 class Bend:
-    """The middle of the box bent to an arc of its own length, straight beyond the ends.
+    """The middle of the box bent to an arc of its own length, straight beyond the ends."""
 
-    Attributes:
-        along: the axis that is bent.
-        degrees: by which its far end is turned.
-        towards: the index of the axis that it bends to.
-        sign: 1 to the high end of that axis, -1 to the low end.
-        fixed: the t of the section that stays in place.
-    """
-
-    along: Along
-    degrees: float
-    towards: int
-    sign: int
-    fixed: float
+    along: Along  # the axis that is bent
+    degrees: float  # by which its far end is turned
+    towards: int  # the index of the axis that it bends to
+    sign: int  # 1 to the high end of that axis, -1 to the low end
+    fixed: float  # the t of the section that stays in place
 
     def __call__(self, points: Floats) -> Floats:
         along, b = self.along, self.towards
@@ -162,21 +141,13 @@ class Bend:
 
 @dataclass(frozen=True, slots=True)
 class Bulge:
-    """A side pushed out in the middle, by ``height`` at most, and everything between it and the other side with it.
+    """A side pushed out in the middle, by ``height`` at most, and everything between it and the other side with it."""
 
-    Attributes:
-        along: from the side that stays to the one that is pushed.
-        height: how far its middle moves.
-        low: the least coordinates, across the axis, of the part that moves.
-        high: the greatest.
-        round: whether the part is the ellipse in that rectangle, not the rectangle.
-    """
-
-    along: Along
-    height: float
-    low: tuple[float, float]
-    high: tuple[float, float]
-    round: bool
+    along: Along  # from the side that stays to the one that is pushed
+    height: float  # how far its middle moves
+    low: tuple[float, float]  # the least coordinates, across the axis, of the part that moves
+    high: tuple[float, float]  # the greatest
+    round: bool  # whether the part is the ellipse in that rectangle, not the rectangle
 
     def __call__(self, points: Floats) -> Floats:
         weights = []
@@ -191,13 +162,18 @@ class Bulge:
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """A rotation about a point: straight lines stay straight."""
+    """A rotation about an axis through a point: straight lines stay straight."""
 
-    matrix: tuple[Point, Point, Point]
+    axis: int
+    degrees: float
     about: Point
 
     def __call__(self, points: Floats) -> Floats:
-        return np.asarray((points - self.about) @ np.array(self.matrix).T + self.about)
+        u, v, angle = (self.axis + 1) % 3, (self.axis + 2) % 3, math.radians(self.degrees)
+        matrix = np.eye(3)
+        matrix[u, u] = matrix[v, v] = math.cos(angle)
+        matrix[v, u], matrix[u, v] = math.sin(angle), -math.sin(angle)
+        return np.asarray((points - self.about) @ matrix.T + self.about)
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ Angles are degrees, counter-clockwise. A Sketch never changes: each verb returns
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias, cast
 
@@ -23,31 +23,18 @@ import shapely
 from numpy.typing import ArrayLike
 from shapely import affinity
 
-from shapewright.modelling.arguments import count, number, positive
+from shapewright.modelling import arguments
+from shapewright.modelling.arguments import number, positive
 from shapewright.modelling.curves import bezier, spline
 from shapewright.shapes import Drawing, Floats
 
-__all__ = [
-    "Sketch",
-    "arc",
-    "bezier",
-    "box",
-    "circle",
-    "ellipse",
-    "line",
-    "polygon",
-    "polyline",
-    "spline",
-    "union",
-]
+__all__ = ["Sketch", "arc", "bezier", "box", "circle", "ellipse", "line", "polygon", "polyline", "spline", "union"]
 
 Point: TypeAlias = Sequence[float] | Floats
 Axis: TypeAlias = Literal["x", "y"]
 ORIGIN = (0.0, 0.0)
-_GRID = -32
-"""Corners are rounded to this power of two of the largest extent."""
-_MITRE = 5.0
-"""Corners are pointed until their point would be so many half widths away."""
+_GRID = -32  # corners are rounded to this power of two of the largest extent
+_MITRE = 5.0  # corners are pointed until their point would be so many half widths away
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,11 +81,12 @@ class Sketch:
     def array(self, count: int, step: Point) -> Sketch:
         """The union of ``count`` copies, each ``step`` further than the one before, from where this one is."""
         x, y = _point("array", "step", step)
-        return _copies("array", count, lambda i: self.translate((i * x, i * y)))
+        return union(*(self.translate((i * x, i * y)) for i in range(arguments.count("array", count, 1))))
 
     def polar_array(self, count: int, about: Point = ORIGIN) -> Sketch:
         """The union of ``count`` copies spread evenly around a point, the first of them where this one is."""
-        return _copies("polar_array", count, lambda i: self.rotate(360.0 * i / count, about))
+        copies = arguments.count("polar_array", count, 1)
+        return union(*(self.rotate(360.0 * i / copies, about) for i in range(copies)))
 
     def fill(self) -> Sketch:
         """The area and everything that it encloses: without its holes."""
@@ -166,7 +154,7 @@ def arc(
     first, last = (math.radians(number("arc", name, value)) for name, value in (("start", start), ("end", end)))
     if not 0.0 < last - first <= 2.0 * math.pi + 1e-9:
         raise ValueError(f"arc: start={start!r}, end={end!r}: end must be greater than start, by 360 at most")
-    pieces = max(1, math.ceil(count("arc", segments, 3, "segments") * (last - first) / (2.0 * math.pi)))
+    pieces = max(1, math.ceil(arguments.count("arc", segments, 3, "segments") * (last - first) / (2.0 * math.pi)))
     turn = np.linspace(first, last, pieces + 1)
     whole = last - first > 2.0 * math.pi - 1e-9
     points = np.stack([x + w / 2.0 * np.cos(turn), y + h / 2.0 * np.sin(turn)], axis=1)
@@ -202,7 +190,7 @@ def circle(size: float, at: Point = ORIGIN, width: float | None = None, segments
 
 def ellipse(size: float | Point, at: Point = ORIGIN, width: float | None = None, segments: int = 64) -> Sketch:
     (w, h), (x, y) = _size("ellipse", size), _point("ellipse", "at", at)
-    turn = np.arange(count("ellipse", segments, 3, "segments")) * (2.0 * math.pi / segments)
+    turn = np.arange(arguments.count("ellipse", segments, 3, "segments")) * (2.0 * math.pi / segments)
     points = np.stack([x + w / 2.0 * np.cos(turn), y + h / 2.0 * np.sin(turn)], axis=1)
     return _rim("ellipse", shapely.Polygon(points), width)
 
@@ -210,10 +198,6 @@ def ellipse(size: float | Point, at: Point = ORIGIN, width: float | None = None,
 def union(*sketches: Sketch) -> Sketch:
     """All of them together; nothing at all where there are none."""
     return Sketch(shapely.union_all([sketch.geometry for sketch in sketches]))
-
-
-def _copies(function: str, number: int, copy: Callable[[int], Sketch]) -> Sketch:
-    return union(*(copy(i) for i in range(count(function, number, 1))))
 
 
 def _rim(function: str, area: Any, width: float | None) -> Sketch:
@@ -224,9 +208,8 @@ def _rim(function: str, area: Any, width: float | None) -> Sketch:
 
 
 def _buffer(geometry: Any, by: float, round: bool) -> Any:
-    if round:
-        return geometry.buffer(by)
-    return geometry.buffer(by, cap_style="flat", join_style="mitre", mitre_limit=_MITRE)
+    pointed = {} if round else {"cap_style": "flat", "join_style": "mitre", "mitre_limit": _MITRE}
+    return geometry.buffer(by, **pointed)
 
 
 def _points(function: str, points: ArrayLike, least: int) -> Floats:

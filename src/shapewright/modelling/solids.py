@@ -15,50 +15,14 @@ coordinates are double precision throughout. docs/modelling.md shows everything 
 from shapewright.modelling.anchors import Space, between, face, on, under, within
 from shapewright.modelling.arguments import Axis, Direction, Vector
 from shapewright.modelling.curves import bezier, spline
-from shapewright.modelling.solid.details import (
-    chamfered_box,
-    cushion,
-    rounded_box,
-    slats,
-    tapered_leg,
-    turned_leg,
-)
+from shapewright.modelling.solid.details import chamfered_box, cushion, rounded_box, slats, tapered_leg, turned_leg
 from shapewright.modelling.solid.primitives import box, cone, cylinder, prism, sphere
 from shapewright.modelling.solid.sections import Polygon, ellipse, rectangle
 from shapewright.modelling.solid.solid import Solid, hull, union
 from shapewright.modelling.solid.sweeps import extrude, loft, revolve, sweep
 
-__all__ = [
-    "Axis",
-    "Direction",
-    "Polygon",
-    "Solid",
-    "Space",
-    "Vector",
-    "between",
-    "bezier",
-    "box",
-    "chamfered_box",
-    "cone",
-    "cushion",
-    "cylinder",
-    "ellipse",
-    "extrude",
-    "face",
-    "hull",
-    "loft",
-    "on",
-    "prism",
-    "rectangle",
-    "revolve",
-    "rounded_box",
-    "slats",
-    "sphere",
-    "spline",
-    "sweep",
-    "tapered_leg",
-    "turned_leg",
-    "under",
-    "union",
-    "within",
-]
+__all__ = ["Axis", "Direction", "Polygon", "Solid", "Space", "Vector", "hull", "union"]
+__all__ += ["box", "cone", "cylinder", "prism", "sphere"]
+__all__ += ["bezier", "ellipse", "extrude", "loft", "rectangle", "revolve", "spline", "sweep"]
+__all__ += ["chamfered_box", "cushion", "rounded_box", "slats", "tapered_leg", "turned_leg"]
+__all__ += ["between", "face", "on", "under", "within"]

@@ -131,14 +131,9 @@ def bulge(
 def turn(domain: Domain, degrees: float, axis: str, about: Point) -> Deformation:
     """See Box.rotate. about: a place in the box, 0 to 1 along each axis."""
     index, sign = domain.towards("rotate", axis)
-    angle = math.radians(arguments.number("rotate", "degrees", degrees)) * sign * domain.handed
-    u, v = (index + 1) % 3, (index + 2) % 3
-    matrix = np.eye(3)
-    matrix[u, u] = matrix[v, v] = math.cos(angle)
-    matrix[v, u], matrix[u, v] = math.sin(angle), -math.sin(angle)
+    turned = arguments.number("rotate", "degrees", degrees) * sign * domain.handed
     place = [
         low + (high - low) * (share if facing > 0 else 1.0 - share)
         for low, high, facing, share in zip(domain.low, domain.high, domain.facing, about, strict=True)
     ]
-    rows = tuple((float(x), float(y), float(z)) for x, y, z in matrix)
-    return Turn((rows[0], rows[1], rows[2]), (place[0], place[1], place[2]))
+    return Turn(index, turned, arguments.point(place))

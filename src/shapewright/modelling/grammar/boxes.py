@@ -8,22 +8,20 @@ new ones, and raises ValueError when a size would be negative.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 from shapewright.modelling import arguments, deformation, verbs
-from shapewright.modelling.arguments import Axis, Direction, Point, Side, Vector
+from shapewright.modelling.arguments import Axis, Direction, Point, Side, Vector, point
 from shapewright.modelling.curves import TOLERANCE
 from shapewright.modelling.deformation import Deformation, Domain
 from shapewright.modelling.grammar import divisions
-from shapewright.modelling.grammar.divisions import Size
+from shapewright.modelling.grammar.divisions import ROUNDING, Size
 from shapewright.modelling.grammar.forms import Fields, Fill, Group, Round, replaced
 from shapewright.modelling.solid.solid import Solid
 from shapewright.shapes import Floats
-
-_ROUNDING = 1e-9
 
 
 class Box(Fields):
@@ -70,7 +68,7 @@ class Box(Fields):
         """
         index = arguments.axis("round", axis)
         most = min(extent for d, extent in enumerate(self.size) if d != index) / 2.0
-        if radius is not None and not 0.0 <= arguments.number("round", "radius", radius) <= most + _ROUNDING:
+        if radius is not None and not 0.0 <= arguments.number("round", "radius", radius) <= most + ROUNDING:
             raise ValueError(f"round: radius={radius!r} must lie in 0..{most:.4g}, half the lesser extent")
         return self._replace(form=Round(index, radius) if radius != 0.0 else None)
 
@@ -88,7 +86,7 @@ class Box(Fields):
         if self.deformations:
             raise ValueError("move: a box that is deformed cannot be moved; move it first")
         step = np.multiply(arguments.vector("move", "by", by), self.facing)
-        return self._replace(low=_point(step + self.low), high=_point(step + self.high))
+        return self._replace(low=point(step + self.low), high=point(step + self.high))
 
     def flip(self, axis: Axis) -> Box:
         """The box facing the other way along an axis: what is made in it is mirrored."""
@@ -132,7 +130,7 @@ class Box(Fields):
             if margin != 0.0:
                 near, far = arguments.pair("inset", "xyz"[index], margin)[:: self.facing[index]]
                 low[index], high[index] = low[index] + near, high[index] - far
-        return self._part("inset", _point(low), _point(high))
+        return self._part("inset", point(low), point(high))
 
     def sub(self, size: Sequence[float | None], anchor: Vector = (0.5, 0.5, 0.5)) -> Box:
         """A box of its own size at a place in this one.
@@ -147,7 +145,7 @@ class Box(Fields):
                 start = room * (place if self.facing[index] > 0 else 1.0 - place)
                 low[index] = self.low[index] + start
                 high[index] = self.high[index] if start == room else low[index] + extent
-        return self._part("sub", _point(low), _point(high))
+        return self._part("sub", point(low), point(high))
 
     def ends(self, axis: Axis, size: float) -> tuple[Box, Box]:
         """The near and the far end of an axis, ``size`` long; each faces outwards, so they are mirror images."""
@@ -285,14 +283,9 @@ class Box(Fields):
 
     def __str__(self) -> str:
         size = " x ".join(f"{extent:.4g}" for extent in self.size)
-        least = _ROUNDING * max(self.size)
+        least = ROUNDING * max(self.size)
         centre = ", ".join(f"{middle if abs(middle) > least else 0.0:.4g}" for middle in self._domain.centre)
         return f"{size} at ({centre})"
-
-
-def _point(values: Iterable[float]) -> Point:
-    x, y, z = map(float, values)
-    return x, y, z
 
 
 def _across(axis: Axis) -> tuple[Axis, Axis]:

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from types import EllipsisType
 from typing import TypeAlias
 
-_ROUNDING = 1e-9
-"""By how much sizes may exceed the whole, as a part of it: more than sums of decimal fractions are off."""
+ROUNDING = 1e-9  # how far sizes may exceed the whole, as a part of it: more than sums of decimal fractions are off
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,13 +31,13 @@ def split(whole: float, sizes: tuple[Size, ...]) -> list[tuple[float, float]]:
     if any(not (math.isfinite(number) and number >= 0.0) for number in (*lengths, *weights)):
         raise ValueError(f"the sizes {_spell(sizes)} must be finite, and none negative")
     rest = whole - sum(lengths)
-    if rest < -_ROUNDING * whole:
+    if rest < -ROUNDING * whole:
         raise ValueError(f"the sizes {_spell(sizes)} are {-rest:.4g} more than the {whole:.4g} that there are")
     unit = max(rest, 0.0) / sum(weights) if any(weights) else 0.0
     cuts = [0.0]
     for length, weight in zip(lengths, weights, strict=True):
         cut = cuts[-1] + length + weight * unit
-        cuts.append(whole if abs(cut - whole) <= _ROUNDING * whole else cut)
+        cuts.append(whole if abs(cut - whole) <= ROUNDING * whole else cut)
     return list(itertools.pairwise(cuts))
 
 
@@ -47,9 +46,9 @@ def repeat(whole: float, count: int | None, size: float | None, gap: float | Non
 
     Raises ValueError when no size above 0 and gap from 0 up fit, or when count, size and gap are all given.
     """
+    if None not in (count, size, gap):
+        raise ValueError("of count, size and gap give two: the third follows")
     if count is not None and size is not None:
-        if gap is not None:
-            raise ValueError("of count, size and gap give two: the third follows")
         number, length = count, float(size)
         space = (whole - count * length) / (count - 1) if count > 1 else 0.0
     elif count is not None:
@@ -62,14 +61,14 @@ def repeat(whole: float, count: int | None, size: float | None, gap: float | Non
         length = (whole - (number - 1) * space) / max(number, 1)
     else:
         raise ValueError("it takes a count, or a size, or two of count, size and gap")
-    if number < 1 or not length > 0.0 or space < -_ROUNDING * whole:
+    if number < 1 or not length > 0.0 or space < -ROUNDING * whole:
         raise ValueError(
             f"count={count}, size={size}, gap={gap} would divide {whole:.4g} into {number} pieces of {length:.4g} "
             f"with gaps of {space:.4g}"
         )
     starts = [i * (length + max(space, 0.0)) for i in range(number)]
     ends = [start + length for start in starts]
-    ends[-1] = whole if abs(ends[-1] - whole) <= _ROUNDING * whole else ends[-1]
+    ends[-1] = whole if abs(ends[-1] - whole) <= ROUNDING * whole else ends[-1]
     return list(zip(starts, starts[1:] + ends[-1:] if space <= 0.0 else ends, strict=True))
 
 

@@ -38,29 +38,17 @@ class Group:
 
 
 class Fields(NamedTuple):
-    """What a box holds. A named tuple, because most of the time of a derivation goes into making boxes.
+    """What a box holds. A named tuple, because most of the time of a derivation goes into making boxes."""
 
-    Attributes:
-        low: its corner with the least coordinates.
-        high: its corner with the greatest.
-        facing: 1, or -1 for each axis against which it faces.
-        symbol: the tag that decides which rules apply to it.
-        names: its label (under None) and those of single sides.
-        form: how it is rounded or filled.
-        deformations: its own, the first first.
-        groups: those that it is part of, the outermost first.
-        is_void: whether it is cut out of what the same rule makes besides.
-    """
-
-    low: Point
-    high: Point
-    facing: tuple[int, int, int] = (1, 1, 1)
-    symbol: str = ""
-    names: tuple[tuple[Side | None, str], ...] = ()
-    form: Round | Fill | None = None
-    deformations: tuple[Deformation, ...] = ()
-    groups: tuple[Group, ...] = ()
-    is_void: bool = False
+    low: Point  # its corner with the least coordinates
+    high: Point  # its corner with the greatest
+    facing: tuple[int, int, int] = (1, 1, 1)  # 1, or -1 for each axis against which it faces
+    symbol: str = ""  # the tag that decides which rules apply to it
+    names: tuple[tuple[Side | None, str], ...] = ()  # its label (under None) and those of single sides
+    form: Round | Fill | None = None  # how it is rounded or filled
+    deformations: tuple[Deformation, ...] = ()  # its own, the first first
+    groups: tuple[Group, ...] = ()  # those that it is part of, the outermost first
+    is_void: bool = False  # whether it is cut out of what the same rule makes besides
 
 
 def replaced(values: tuple[T, T, T], index: int, value: T) -> tuple[T, T, T]:

@@ -97,7 +97,7 @@ def slats(size: float | Vector, count: int, gap: float, axis: Axis = "x", at: Ve
     Raises ValueError when the gaps leave no room for the slats.
     """
     extents = list(arguments.size("slats", size))
-    x, y, z = arguments.vector("slats", "at", at)
+    centre = arguments.vector("slats", "at", at)
     index, number = arguments.axis("slats", axis), arguments.count("slats", count, 1)
     space = arguments.number("slats", "gap", gap)
     width = (extents[index] - (number - 1) * space) / number
@@ -105,9 +105,8 @@ def slats(size: float | Vector, count: int, gap: float, axis: Axis = "x", at: Ve
         raise ValueError(f"slats: {number} slats with gaps of {gap!r} between them do not fit into {extents[index]:g}")
     first = (width - extents[index]) / 2.0
     extents[index] = width
-    centres = [[x, y, z] for _ in range(number)]
-    for i, centre in enumerate(centres):
-        centre[index] += first + i * (width + space)
+    centres = np.tile(centre, (number, 1))
+    centres[:, index] += first + np.arange(number) * (width + space)
     return union(*(box(extents, centre) for centre in centres))
 
 
@@ -123,9 +122,7 @@ def _rounded(function: str, size: float | Vector, radius: float, segments: int, 
     around = np.concatenate([quarter + turn * np.pi / 2.0 for turn in range(4)])
     unit = np.stack([np.cos(around), np.sin(around)], axis=1)
     corners = np.repeat([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)], segments + 1, axis=0) * rim
-    levels = [
-        *zip(out[::-1], -(height / 2.0 - radius) - up[::-1], strict=False),
-        *zip(out, (height / 2.0 - radius) + up, strict=False),
-    ]
-    stack = [np.insert(corners + reach * unit, 1, level, axis=1) for reach, level in levels]
+    reaches = [*out[::-1], *out]
+    levels = [*(-(height / 2.0 - radius) - up[::-1]), *((height / 2.0 - radius) + up)]
+    stack = [np.insert(corners + reach * unit, 1, y, axis=1) for reach, y in zip(reaches, levels, strict=True)]
     return skin(Section((stack[segments][:, [0, 2]],)), np.stack(stack), at=arguments.vector(function, "at", at))

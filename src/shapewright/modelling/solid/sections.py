@@ -97,22 +97,20 @@ def without_repeats(ring: Floats) -> Floats:
 
 
 def _is_simple(ring: Floats) -> bool:
-    """Whether the ring is convex, or at least does not meet itself."""
-    if _is_convex(ring):
-        return True
-    import shapely
+    """Whether the ring does not meet itself.
 
-    return bool(shapely.is_valid(shapely.Polygon(ring)))
-
-
-def _is_convex(ring: Floats) -> bool:
-    """Whether every corner turns the same way, and once around in all; straight corners count as either."""
+    It does not where it is convex: where every corner turns the same way, and once around in all.
+    """
     edges = np.roll(ring, -1, axis=0) - ring
     after = np.roll(edges, -1, axis=0)
     cross, dot = edges[:, 0] * after[:, 1] - edges[:, 1] * after[:, 0], (edges * after).sum(axis=1)
     turns = np.arctan2(cross, dot)
     alike = bool((turns >= 0.0).all() or (turns <= 0.0).all()) and bool(np.any(cross))
-    return alike and abs(abs(float(turns.sum())) - 2.0 * math.pi) < 1e-6
+    if alike and abs(abs(float(turns.sum())) - 2.0 * math.pi) < 1e-6:
+        return True
+    import shapely
+
+    return bool(shapely.is_valid(shapely.Polygon(ring)))
 
 
 def _even_odd(function: str, rings: Sequence[Floats]) -> tuple[Floats, ...]:

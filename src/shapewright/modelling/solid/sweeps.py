@@ -169,7 +169,8 @@ def _frames(points: Floats, ring: bool) -> tuple[Floats, Floats, Floats, Floats,
     for before, after in zip(steps, [*steps[1:], first] if ring else steps[1:], strict=False):
         if 1.0 + before @ after < 1e-3:
             raise ValueError("sweep: the path turns straight back")
-        frame = _transported(frame, before, after)
+        middle = before + after
+        frame = frame - middle * (2.0 * (frame @ middle) / (middle @ middle))
         frames.append(frame)
     rights = np.stack([frames[0], *frames[: len(steps)]])
     forward = np.concatenate([steps[:1], steps])
@@ -179,12 +180,6 @@ def _frames(points: Floats, ring: bool) -> tuple[Floats, Floats, Floats, Floats,
         return rights, ups, forward, mitre, 0.0
     mitre[0] = mitre[-1] = steps[-1] + first
     return rights, ups, forward, mitre, math.atan2(float(frame @ ups[0]), float(frame @ rights[0]))
-
-
-def _transported(vector: Floats, before: Floats, after: Floats) -> Floats:
-    """A vector turned as little as turns one direction into another."""
-    middle = before + after
-    return np.asarray(vector - middle * (2.0 * (vector @ middle) / (middle @ middle)))
 
 
 def skin(outline: Section, stack: Floats, ring: bool = False, at: Vector = ORIGIN) -> Solid:
@@ -248,7 +243,6 @@ def _at_angles(ring: Floats, angles: Floats) -> Floats:
     edge = ring[after] - ring[before]
     cross = ring[before, 0] * edge[:, 1] - ring[before, 1] * edge[:, 0]
     result = ray * (cross / (ray[:, 0] * edge[:, 1] - ray[:, 1] * edge[:, 0]))[:, None]
-    for i, angle in enumerate(own):
-        same = np.abs(angles - angle) <= _SAME_ANGLE
-        result[same] = ring[i]
+    rays, corners = np.nonzero(np.abs(angles[:, None] - own) <= _SAME_ANGLE)
+    result[rays] = ring[corners]
     return np.asarray(result)
