@@ -11,8 +11,7 @@ from shapewright.shapes import Floats, Ints
 from shapewright.shapes.slivers import SLIVER, has_slivers, without_slivers
 from shapewright.shapes.soundness import topology
 
-_MOST_CELLS = 500_000
-"""Of a grid that is filled box by box: 4 MB. Finer ones are left to booleans."""
+_MOST_CELLS = 500_000  # of a grid that is filled box by box: 4 MB; finer ones are left to booleans
 
 
 def unite(low: Floats, high: Floats, owners: Ints) -> tuple[Floats, Ints, Ints] | None:
@@ -24,8 +23,7 @@ def unite(low: Floats, high: Floats, owners: Ints) -> tuple[Floats, Ints, Ints] 
     because boxes meet in an edge or a corner only, and when there are too many coordinates for a grid.
     """
     least = SLIVER * float((high.max(axis=0) - low.min(axis=0)).max())
-    grid = [_grid_lines(low[:, d], high[:, d], least) for d in range(3)]
-    (xs, x0, x1), (ys, y0, y1), (zs, z0, z1) = grid
+    (xs, x0, x1), (ys, y0, y1), (zs, z0, z1) = (_grid_lines(low[:, d], high[:, d], least) for d in range(3))
     if min(len(xs), len(ys), len(zs)) < 2 or len(xs) * len(ys) * len(zs) > _MOST_CELLS:
         return None
     points, faces, origins = _stitched(x0, x1, y0, y1, z0, z1, owners, xs, ys, zs)
@@ -68,8 +66,7 @@ def _stitched(x0: Any, x1: Any, y0: Any, y1: Any, z0: Any, z1: Any, owners: Any,
     rectangles = _rectangles(cells, owners, shape, stride)
     corner = np.zeros(len(cells), dtype=np.bool_)
     most = 0
-    for r in range(len(rectangles)):
-        d, at, _, _, u0, u1, v0, v1 = rectangles[r]
+    for d, at, _, _, u0, u1, v0, v1 in rectangles:
         u, v = stride[(d + 1) % 3], stride[(d + 2) % 3]
         for i in (u0, u1):
             for j in (v0, v1):
@@ -77,41 +74,29 @@ def _stitched(x0: Any, x1: Any, y0: Any, y1: Any, z0: Any, z1: Any, owners: Any,
         most += 2 * (u1 - u0 + v1 - v0)
     faces, origins = np.empty((most, 3), dtype=np.int64), np.empty(most, dtype=np.int64)
     total = 0
-    for r in range(len(rectangles)):
+    for rectangle in rectangles:
         before = total
-        total = _fill(rectangles[r], corner, stride, faces, total)
-        origins[before:total] = rectangles[r, 3]
-    points = _numbered(faces[:total], stride, xs, ys, zs)
-    return points, faces[:total], origins[:total]
+        total = _fill(rectangle, corner, stride, faces, total)
+        origins[before:total] = rectangle[3]
+    points, faces = _numbered(faces[:total], stride, xs, ys, zs)
+    return points, faces, origins[:total]
 
 
 @njit(nogil=True, cache=True)
 def _numbered(faces: Any, stride: Any, xs: Any, ys: Any, zs: Any) -> Any:
-    """Points (V, 3) of the grid that faces use; the faces are changed to point at these."""
-    numbers = np.full(len(xs) * stride[0], -1, dtype=np.int64)
-    for f in range(len(faces)):
-        for k in range(3):
-            numbers[faces[f, k]] = 0
-    points = np.empty((int((numbers == 0).sum()), 3))
-    count = 0
-    for place in range(len(numbers)):
-        if numbers[place] == 0:
-            numbers[place] = count
-            points[count, 0] = xs[place // stride[0]]
-            points[count, 1] = ys[place % stride[0] // stride[1]]
-            points[count, 2] = zs[place % stride[1]]
-            count += 1
-    for f in range(len(faces)):
-        for k in range(3):
-            faces[f, k] = numbers[faces[f, k]]
-    return points
+    """Points (V, 3) of the grid that faces use, and the faces, which point at these."""
+    corners = faces.ravel()
+    used = np.zeros(len(xs) * stride[0], dtype=np.int64)
+    used[corners] = 1
+    places = np.flatnonzero(used)
+    points = np.stack((xs[places // stride[0]], ys[places % stride[0] // stride[1]], zs[places % stride[1]]), axis=1)
+    return points, (np.cumsum(used) - 1)[corners].reshape(-1, 3)
 
 
 @njit(nogil=True, cache=True)
 def _rectangles(cells: Any, owners: Any, shape: Any, stride: Any) -> Any:
-    """(R, 8): axis, place along it, 1 or -1 for the way that it faces, a box, and the extent along the other axes."""
-    found = np.empty((256, 8), dtype=np.int64)
-    total = 0
+    """Of each: axis, place along it, 1 or -1 for the way that it faces, a box, and the extent along the other axes."""
+    found = []
     for d in range(3):
         u, v = (d + 1) % 3, (d + 2) % 3
         open_ = np.empty((shape[u], shape[v]), dtype=np.int64)
@@ -132,17 +117,10 @@ def _rectangles(cells: Any, owners: Any, shape: Any, stride: Any) -> Any:
                 for i in range(shape[u] - 1):
                     for j in range(shape[v] - 1):
                         if open_[i, j] >= 0:
-                            if total == len(found):
-                                larger = np.empty((2 * total, 8), dtype=np.int64)
-                                larger[:total] = found
-                                found = larger
                             box = open_[i, j]
                             end_i, end_j = _grow(open_, owners, i, j, shape[u] - 1, shape[v] - 1)
-                            row = found[total]
-                            row[0], row[1], row[2], row[3] = d, at, sign, box
-                            row[4], row[5], row[6], row[7] = i, end_i, j, end_j
-                            total += 1
-    return found[:total]
+                            found.append((d, at, sign, box, i, end_i, j, end_j))
+    return found
 
 
 @njit(nogil=True, cache=True)
