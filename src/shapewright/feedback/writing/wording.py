@@ -31,10 +31,8 @@ class Rule:
 
     def spelled(self, ranges: Mapping[str, tuple[float, float, float]]) -> NewRule:
         """The rule with these ranges (low, high, default) of its quantities."""
-        parameters = [q.parameter(*ranges[q.name], self.flag) for q in self.quantities]
-        if self.flag:
-            off = "True" if not self.function else "False"
-            parameters.insert(0, NewParameter(self.flag, "bool", off))
+        parameters = [NewParameter(self.flag, "bool", str(not self.function))] if self.flag else []
+        parameters += [q.parameter(*ranges[q.name], self.flag) for q in self.quantities]
         imports = {"shapewright.modelling.solids": self.imports} if self.imports else {}
         if self.quantities:
             imports = {"typing": ("Annotated",), "shapewright": ("Range",), **imports}
@@ -100,11 +98,7 @@ def addition(
 
 
 def drawing_in(
-    label: str,
-    scales: Sequence[tuple[float, float]],
-    frames: Sequence[Frames],
-    free: Callable[[str], str],
-    note: str,
+    label: str, scales: Sequence[tuple[float, float]], frames: Sequence[Frames], free: Callable[[str], str], note: str
 ) -> Rule:
     """A rule that draws a part in towards the middle, along x and z."""
     plain = _plain(label)
@@ -162,12 +156,8 @@ def _about(frames: Sequence[Frames]) -> str:
 
 
 def _distinct(nouns: Sequence[str]) -> list[str]:
-    seen: dict[str, int] = {}
-    result = []
-    for word in nouns:
-        seen[word] = seen.get(word, 0) + 1
-        result.append(word if seen[word] == 1 else f"{word}_{seen[word]}")
-    return result
+    numbers = [nouns[: i + 1].count(word) for i, word in enumerate(nouns)]
+    return [word if number == 1 else f"{word}_{number}" for word, number in zip(nouns, numbers, strict=True)]
 
 
 def _plain(label: str) -> str:

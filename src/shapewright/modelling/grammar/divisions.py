@@ -26,7 +26,7 @@ def split(whole: float, sizes: tuple[Size, ...]) -> list[tuple[float, float]]:
 
     Raises ValueError for a negative size, and for lengths that come to more than the whole.
     """
-    weights = [_weight(size) for size in sizes]
+    weights = [1.0 if size is ... else size.weight if isinstance(size, share) else 0.0 for size in sizes]
     lengths = [size if isinstance(size, int | float) else 0.0 for size in sizes]
     if any(not (math.isfinite(number) and number >= 0.0) for number in (*lengths, *weights)):
         raise ValueError(f"the sizes {_spell(sizes)} must be finite, and none negative")
@@ -70,10 +70,6 @@ def repeat(whole: float, count: int | None, size: float | None, gap: float | Non
     ends = [start + length for start in starts]
     ends[-1] = whole if abs(ends[-1] - whole) <= ROUNDING * whole else ends[-1]
     return list(zip(starts, starts[1:] + ends[-1:] if space <= 0.0 else ends, strict=True))
-
-
-def _weight(size: Size) -> float:
-    return 1.0 if size is ... else size.weight if isinstance(size, share) else 0.0
 
 
 def _spell(sizes: tuple[Size, ...]) -> str:

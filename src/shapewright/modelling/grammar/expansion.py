@@ -86,21 +86,16 @@ class Expansion:
             return Node(box, label or box.symbol or fallback, made_by)
         if len(path) >= DEPTH or self.boxes > BOXES:
             raise GrammarError(
-                f"endless recursion: rule {rule.name}() on the box {box.symbol!r} ({box}), after "
-                f"{len(path)} rules in a row ({' > '.join(path[-4:])}) and {self.boxes} boxes"
+                f"endless recursion: {_at(rule, box)}, after {len(path)} rules in a row ({' > '.join(path[-4:])}) "
+                f"and {self.boxes} boxes"
             )
         if box.form:
             raise GrammarError(
                 f"rule {rule.name}() cannot be applied to the box {box.symbol!r} ({box}), which is rounded or filled"
             )
-        children = self._apply(rule, box)
-        return Node(
-            box,
-            label or box.symbol,
-            made_by,
-            rule.name,
-            tuple(self.expand(child, label, box.symbol, rule.name, (*path, rule.name)) for child in children),
-        )
+        path = (*path, rule.name)
+        children = tuple(self.expand(child, label, box.symbol, rule.name, path) for child in self._apply(rule, box))
+        return Node(box, label or box.symbol, made_by, rule.name, children)
 
     def _rule(self, box: Box) -> Rule:
         rules = self.rules[box.symbol]

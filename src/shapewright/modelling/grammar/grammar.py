@@ -60,8 +60,7 @@ class Grammar:
 
         def register(function: F) -> F:
             others = self._rules.setdefault(tag, [])
-            always = next((other for other in others if other.when is None), None)
-            if always:
+            if always := next((other for other in others if other.when is None), None):
                 raise GrammarError(
                     f"rule {function.__name__}() for {tag!r} would never apply: {always.name}() before it always does; "
                     "give that one a when=, or write it last"
@@ -106,13 +105,11 @@ class Grammar:
         for derivation in derivations:
             counts.update(derivation.counts)
             tags |= {node.box.symbol for node in derivation.root}
-        idle = [rule for rule in self.rules if not counts[rule.name]]
-        if idle:
+        if idle := [rule for rule in self.rules if not counts[rule.name]]:
             reasons = ", ".join(
                 f"{rule.name}() for {rule.tag!r} ({'its when= never held' if rule.tag in tags else 'no such box'})"
                 for rule in idle
             )
-            raise GrammarError(
-                f"rules that never applied: {reasons}; there were boxes {', '.join(sorted(tags - {''}))}"
-            )
+            there = ", ".join(sorted(tags - {""}))
+            raise GrammarError(f"rules that never applied: {reasons}; there were boxes {there}")
         return counts
