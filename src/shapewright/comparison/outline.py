@@ -75,7 +75,7 @@ def distances(
 
 def silhouette(drawing: Drawing) -> Bytes:
     """The normalised drawing in [-1, 1] x [-1, 1]: (256, 256), 1 where it covers a pixel's centre, bottom row first."""
-    corners, rings = outlines(drawing.normalised())
+    corners, rings, _ = outlines(drawing.normalised())
     image = np.empty((SIZE, SIZE), dtype=np.uint8)
     fill((corners + 1.0) * (SIZE / 2) - 0.5, rings, image)
     return image

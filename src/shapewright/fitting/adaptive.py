@@ -12,8 +12,7 @@ from shapewright.parameters import Parameters, ParameterSpace
 
 _LEAST_SPREAD, _SPREADS = 0.03, 3.0
 """Of a scalar's normal step: its least size in shares of the Range, and its size in mean errors."""
-_LEAST_CHANGE = 0.1
-"""Least probability that a parameter of classes changes."""
+_LEAST_CHANGE = 0.1  # least probability that a parameter of classes changes
 
 
 def around(

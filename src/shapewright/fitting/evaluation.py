@@ -19,10 +19,8 @@ from shapewright.references import Collection
 from shapewright.search.search import SearchStart, refine
 from shapewright.settings import Cameras, Settings
 
-REFINED = 100
-"""Most held-out samples that the search is measured on, where no other number is asked for."""
-VIEWS = (1, 2, 3, 5)
-"""Numbers of cameras that are compared."""
+REFINED = 100  # most held-out samples that the search is measured on, where no other number is asked for
+VIEWS = (1, 2, 3, 5)  # numbers of cameras that are compared
 
 
 @dataclass(frozen=True)
@@ -63,12 +61,9 @@ def evaluate(
 
 def variants(settings: Settings, compared: Literal["cameras", "views", "both"] | None) -> list[Settings]:
     """The settings with each kind ("cameras") or number ("views") of cameras, or all combinations ("both")."""
-    variants = [settings]
-    if compared in ("views", "both"):
-        variants = [replace(variant, views=views) for variant in variants for views in VIEWS]
-    if compared in ("cameras", "both"):
-        variants = [replace(variant, cameras=cameras) for variant in variants for cameras in get_args(Cameras)]
-    return variants
+    numbers = VIEWS if compared in ("views", "both") else (settings.views,)
+    kinds = get_args(Cameras) if compared in ("cameras", "both") else (settings.cameras,)
+    return [replace(settings, views=views, cameras=cameras) for views in numbers for cameras in kinds]
 
 
 def summary(evaluations: Sequence[Evaluation]) -> dict[str, dict[str, tuple[float, float, float]]]:

@@ -28,12 +28,10 @@ def quarter_turns(
     if settings.facing == "given" or references.kind is not Mesh:
         return [0] * len(references)
     stages.begin("face", len(references))
-    costs = np.array(
-        [_costs(references.turned([quarters] * len(references)), predictor, crew) for quarters in range(4)]
-    )
-    best = costs.argmin(axis=0)
-    clear = costs.min(axis=0) <= _CLEARLY * costs[0]
-    return [int(quarters) if turn else 0 for quarters, turn in zip(best, clear, strict=True)]
+    positions = [references.turned([quarters] * len(references)) for quarters in range(4)]
+    costs = np.array([_costs(position, predictor, crew) for position in positions])
+    turns: list[int] = np.where(costs.min(axis=0) <= _CLEARLY * costs[0], costs.argmin(axis=0), 0).tolist()
+    return turns
 
 
 def _costs(references: Collection, predictor: Predictor, crew: Workers) -> list[float]:

@@ -28,8 +28,7 @@ from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, B
 from shapewright.settings import Searching, Settings
 from shapewright.shapes import Drawing, Shape
 
-FIRST = 256
-"""Samples that are built and drawn before all others, for the first answer."""
+FIRST = 256  # samples that are built and drawn before all others, for the first answer
 
 
 @dataclass(frozen=True, eq=False)

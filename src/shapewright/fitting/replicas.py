@@ -17,8 +17,7 @@ from shapewright.progress import Stages
 from shapewright.search.search import SearchStart, refine
 from shapewright.shapes import Floats, Ints
 
-_NEAR = 0.5
-"""Share of the threshold up to which parameters that are known already are not searched for again."""
+_NEAR = 0.5  # share of the threshold up to which parameters that are known already are not searched for again
 
 
 @dataclass(frozen=True, eq=False)

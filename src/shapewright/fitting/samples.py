@@ -100,7 +100,10 @@ def write_samples(
             f"{folder}: cannot be written: {error.strerror or error}; the shapes in its manifest are whole: "
             "repeat the command to go on"
         ) from error
-    return _summary(rows, failed, len(header))
+    written = [row for row in rows if row[0]]
+    unsound = sum(row[header.index("sound")] == "False" for row in written)
+    failures = describe_failures(failed) if failed else ""
+    return Samples(len(written), unsound, len(rows) - len(written), failures)
 
 
 def _record(procedure: Procedure, format: str, seed: int) -> dict[str, Any]:
@@ -150,10 +153,3 @@ def _write_shape(folder: Path, name: str, build: Build, format: Format, record: 
         state = build.shape.soundness()
         soundness = [str(state.sound), *(str(getattr(state, name)) for name in _MEASURES)]
     return [path, *values, *soundness, ""]
-
-
-def _summary(rows: Sequence[Sequence[str]], failed: Sequence[Build], columns: int) -> Samples:
-    shapes = [row for row in rows if row[0]]
-    sound = columns - len(_MEASURES) - 2
-    unsound = sum(row[sound] == "False" for row in shapes)
-    return Samples(len(shapes), unsound, len(rows) - len(shapes), describe_failures(failed) if failed else "")

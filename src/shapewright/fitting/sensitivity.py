@@ -12,10 +12,8 @@ from shapewright.rendering.cameras import Camera
 from shapewright.rendering.raster import render
 
 ALL_AROUND = (Camera(35.0, 25.0), Camera(215.0, 25.0), Camera(125.0, -25.0), Camera(305.0, -25.0))
-SIZE = 128
-"""Pixels along the side of these pictures; those of the network have 64 by default."""
-_TRIES = (4, 12)
-"""Shapes on which a parameter is tried: these many first, then more, where it has shown no effect yet."""
+SIZE = 128  # pixels along the side of these pictures; those of the network have 64 by default
+_TRIES = (4, 12)  # shapes on which a parameter is tried: these many first, then more, where it has shown no effect yet
 _VISIBLE = 8  # grey levels of 255
 
 

@@ -33,10 +33,10 @@ class Start:
             return cls(references, False, (None,) * len(references), None, None)
         old = {result.name: result.parameters for result in previous}
         known = tuple(space.carry(values) if (values := old.get(name)) else None for name in references.names)
-        if previous.predictor is None or previous.settings.refine == "off":
-            return cls(references, True, known, previous.predictor, None)
-        before = previous.predictor.space.parameters
-        new = frozenset(p.name for p in space if isinstance(p, Scalar) and p not in before)
+        new = None
+        if previous.predictor and previous.settings.refine != "off":
+            before = previous.predictor.space.parameters
+            new = frozenset(p.name for p in space if isinstance(p, Scalar) and p not in before)
         return cls(references, True, known, previous.predictor, new)
 
     @property

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from shapewright.settings import Settings, Weights
 from shapewright.shapes import Floats
 
-MEASURES = ("distance", "iou", "depth")
-"""What a metric is learned from, in the order of its weights."""
+MEASURES = ("distance", "iou", "depth")  # what a metric is learned from, in the order of its weights
 ENOUGH, OF_EACH = 20, 6
 """Marks that a metric is learned from at least, in all and of either kind: five for each of its four numbers."""
 _FOLDS = 5  # of a cross-validation, the usual number

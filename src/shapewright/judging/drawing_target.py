@@ -17,8 +17,7 @@ from shapewright.judging.target import Measures
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Shape
 
-ENOUGH = 0.8
-"""Black pixels that make no difference: half a percent of a table of thin lines."""
+ENOUGH = 0.8  # black pixels that make no difference: half a percent of a table of thin lines
 
 
 class DrawingTarget:

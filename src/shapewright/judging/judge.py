@@ -21,8 +21,7 @@ from shapewright.settings import Settings
 from shapewright.shapes import Floats, Ints, Mesh, Shape
 from shapewright.threads import in_threads
 
-Rows = Sequence[int] | Ints
-"""Indices of references in their collection."""
+Rows = Sequence[int] | Ints  # indices of references in their collection
 
 
 def target_of(shape: Shape, settings: Settings, cache: Path | None = None) -> Target:

@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-FAR = 2.5
-"""Thresholds from which on meshes have nothing in common: the paper's figures colour them red."""
+FAR = 2.5  # thresholds from which on meshes have nothing in common: the paper's figures colour them red
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,7 @@ Parameters: TypeAlias = dict[str, Value]
 Condition: TypeAlias = Callable[[Any], bool]
 Side: TypeAlias = Literal["low", "high"]
 
-_BEYOND = 0.01
-"""Share of its Range by which a scalar has to pass an end before it counts as outside. Chosen by hand."""
+_BEYOND = 0.01  # Share of its Range by which a scalar has to pass an end before it counts as outside. Chosen by hand.
 
 
 @dataclass(frozen=True)

@@ -14,11 +14,9 @@ from numpy.typing import NDArray
 
 from shapewright.parameters.kinds import Integer, Parameter, Parameters, Scalar, Side, Value
 
-End: TypeAlias = tuple[str, Side]
-"""The name of a parameter and an end of its Range."""
+End: TypeAlias = tuple[str, Side]  # the name of a parameter and an end of its Range
 
-_ENUMERABLE = 20_000
-"""Vectors that are listed one by one to sample from; that takes well under a second."""
+_ENUMERABLE = 20_000  # vectors that are listed one by one to sample from; that takes well under a second
 _DRAWS_PER_VECTOR = 200
 """Draws for each vector that is asked for before sampling stops: enough unless few different shapes are left."""
 _SHOWN, _SEARCHED = 0.02, 0.03
@@ -161,11 +159,9 @@ class ParameterSpace:
         low, high = np.zeros((len(free), len(self))), np.ones((len(free), len(self)))
         for column, (parameter, longer) in enumerate(zip(self, wide, strict=True)):
             if isinstance(parameter, Scalar):
-                for row, ends in enumerate(free):
-                    if (parameter.name, "low") not in ends:
-                        low[row, column] = longer.encode(parameter.low)
-                    if (parameter.name, "high") not in ends:
-                        high[row, column] = longer.encode(parameter.high)
+                least, most = longer.encode(parameter.low), longer.encode(parameter.high)
+                low[:, column] = [0.0 if (parameter.name, "low") in ends else least for ends in free]
+                high[:, column] = [1.0 if (parameter.name, "high") in ends else most for ends in free]
         return low, high
 
     def clipped(self, values: Mapping[str, Value], names: Sequence[str]) -> Parameters:

@@ -13,14 +13,10 @@ from shapewright.prediction.dataset import Dataset
 from shapewright.rendering.raster import render
 from shapewright.shapes import Mesh
 
-TURN, TILT = 4.0, 1.5
-"""Standard deviation, in degrees, of turns about the up axis, and about the others."""
-STRETCH = 0.04
-"""Of the logarithm of each axis's scale."""
-JITTER = 0.006
-"""Of each coordinate of a vertex, as a share of the largest extent."""
-SHARE = 0.5
-"""How likely each change is. All five by hand; docs/benchmarks.md, Augmentation, measures them together."""
+TURN, TILT = 4.0, 1.5  # standard deviation, in degrees, of turns about the up axis, and about the others
+STRETCH = 0.04  # of the logarithm of each axis's scale
+JITTER = 0.006  # of each coordinate of a vertex, as a share of the largest extent
+SHARE = 0.5  # How likely each change is. All five by hand; docs/benchmarks.md, Augmentation, measures them together.
 
 
 def augmented(data: Dataset, seed: int, threads: int | None = None) -> Dataset:

@@ -18,8 +18,7 @@ from shapewright.rendering.cameras import Camera, placed, positions, within_reac
 from shapewright.rendering.raster import render
 from shapewright.shapes import Floats, Shape
 
-STEP = 0.02
-"""From the middle to either render, radians and units of distance: a small picture changes by whole samples."""
+STEP = 0.02  # from the middle to either render, radians and units of distance: a small picture changes by whole samples
 
 
 def camera_gradient(

@@ -63,12 +63,11 @@ def kind_of(builds: Sequence[Build]) -> type[Shape]:
     return next((type(build.shape) for build in builds if build.shape is not None), Mesh)
 
 
-def shapes_of(builds: Sequence[Build], kind: type[Shape] | None = None) -> tuple[list[Build], list[Shape]]:
-    """The builds that gave a shape of this kind, by default that of the first one, and these shapes normalised.
+def shapes_of(builds: Sequence[Build], kind: type[Shape]) -> tuple[list[Build], list[Shape]]:
+    """The builds that gave a shape of this kind, and these shapes normalised.
 
     Raises ProcedureError when fewer than 10 did.
     """
-    kind = kind or kind_of(builds)
     good = [build for build in builds if isinstance(build.shape, kind)]
     if len(good) < min(10, len(builds)):
         built, wanted = ("drawings", "meshes") if kind is Mesh else ("meshes", "drawings")
@@ -96,9 +95,8 @@ def make_dataset(
 
 def join(parts: Sequence[Dataset]) -> Dataset:
     """The rows of several datasets that the same cameras took."""
-    first = parts[0]
     return replace(
-        first,
+        parts[0],
         parameters=[values for part in parts for values in part.parameters],
         targets=np.concatenate([part.targets for part in parts]),
         active=np.concatenate([part.active for part in parts]),

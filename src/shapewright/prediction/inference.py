@@ -18,8 +18,7 @@ from shapewright.prediction.heads import ScalarHead, head_of
 Floats = NDArray[np.float32]
 Metrics: TypeAlias = dict[str, dict[str, Any]]
 
-_PIXELS = 2**22
-"""Pixels of one channel that pass the network at once, which bounds the memory it takes. By hand."""
+_PIXELS = 2**22  # Pixels of one channel that pass the network at once, which bounds the memory it takes. By hand.
 
 
 def outputs(network: nn.Module, images: NDArray[np.uint8]) -> list[Tensor]:

@@ -27,12 +27,10 @@ from shapewright.settings import Device, Network, Optimiser
 from shapewright.shapes import Ints
 from shapewright.threads import cores
 
-_SHARDS = 2
-"""Parts of a batch on a CPU, each on a thread of its own (docs/architecture.md, Threads)."""
+_SHARDS = 2  # parts of a batch on a CPU, each on a thread of its own (docs/architecture.md, Threads)
 _CAMERA_ROWS = 8
 """Rows of a shard from which the gradient by the cameras is estimated: six renders each. By trial on tables."""
-_CAMERA_SHARE = 0.5
-"""Of the epochs in which learned cameras move: the network settles in the rest. By trial on tables."""
+_CAMERA_SHARE = 0.5  # Of the epochs in which learned cameras move: the network settles in the rest. By trial on tables.
 
 
 @dataclass(frozen=True)

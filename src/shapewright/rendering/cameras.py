@@ -48,14 +48,12 @@ class Camera:
 
 THREE_VIEWS = (Camera(35.0, 25.0), Camera(0.0, 5.0), Camera(90.0, 15.0))
 """Three-quarter, front and side, each from a little above."""
-PAGE = Camera(0.0, 0.0)
-"""The camera of drawings: there is one picture of them, and it is never moved."""
+PAGE = Camera(0.0, 0.0)  # the camera of drawings: there is one picture of them, and it is never moved
 THUMBNAIL = Camera(35.0, 25.0, distance=3.6, field_of_view=27.5)
 """The three-quarter view, in which a ball of radius 0.856 about the origin fills the picture."""
 
 _FURTHER = ((215.0, 25.0), (125.0, -20.0), (300.0, 55.0))  # behind, below, above
-_GOLDEN_ANGLE = 180.0 * (3.0 - math.sqrt(5.0))
-"""Degrees; steps of it come back to no place they were at."""
+_GOLDEN_ANGLE = 180.0 * (3.0 - math.sqrt(5.0))  # degrees; steps of it come back to no place they were at
 _ELEVATION, _DISTANCE = math.radians(85.0), (1.8, 6.0)
 """Limits of learned cameras, in radians and units of the largest extent: short of the poles, where the azimuth means
 nothing; outside the shape, whose corners are 0.87 from the origin; near enough for it to fill part of a picture."""

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from shapewright.shapes import Bytes, Drawing, Floats, Ints
 
-HALF = 0.53
-"""Half the side of the page that pictures show, the drawing's largest extent being 1."""
+HALF = 0.53  # half the side of the page that pictures show, the drawing's largest extent being 1
 
 
 def picture(drawing: Drawing, size: int, supersample: int) -> Bytes:
@@ -21,7 +20,7 @@ def picture(drawing: Drawing, size: int, supersample: int) -> Bytes:
     Channel 0 shows it normalised; channel 1 stretched to the same width and height, in which flat and narrow drawings
     show as much as others. Each pixel is the mean of supersample x supersample samples.
     """
-    points, rings = outlines(drawing)
+    points, rings, _ = outlines(drawing)
     low, high = points.min(axis=0), points.max(axis=0)
     centre, extent = (low + high) / 2.0, high - low
     side = size * supersample
@@ -38,7 +37,7 @@ def coverage(drawing: Drawing, size: int) -> Floats:
 
     Unlike ``picture`` it changes evenly with the drawing, however little that moves. The page is the same.
     """
-    points, rings, holes = _rings(drawing)
+    points, rings, holes = outlines(drawing)
     low, high = points.min(axis=0), points.max(axis=0)
     scaled = (points - (low + high) / 2.0) / (high - low).max() * [1.0, -1.0]
     image = np.zeros((size, size + 1))
@@ -55,16 +54,12 @@ def png(drawing: Drawing, size: int = 512) -> bytes:
     return buffer.getvalue()
 
 
-def outlines(drawing: Drawing) -> tuple[Floats, Ints]:
-    """The corners of all rings, (P, 2), one ring after the other, and where each begins and the last ends, (R + 1,).
+def outlines(drawing: Drawing) -> tuple[Floats, Ints, NDArray[np.bool_]]:
+    """The corners of all rings, (P, 2), one ring after the other, where each begins and the last ends, (R + 1,), holes.
 
-    Each ring ends with its first corner; no two rings enclose the same area twice.
+    Each ring ends with its first corner; no two rings enclose the same area twice. The last are the rings that are
+    holes, (R,).
     """
-    return _rings(drawing)[:2]
-
-
-def _rings(drawing: Drawing) -> tuple[Floats, Ints, NDArray[np.bool_]]:
-    """What ``outlines`` gives, and which rings are holes."""
     geometry = drawing.geometry
     parts = shapely.get_parts(geometry if geometry.geom_type == "Polygon" else shapely.unary_union(geometry))
     rings, owners = shapely.get_rings(parts[shapely.area(parts) > 0.0], return_index=True)

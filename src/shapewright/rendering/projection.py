@@ -17,8 +17,7 @@ _AXES = {
     "side": ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0)),
     "top": ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0)),
 }
-_GRID = 2.0**-20
-"""Corners are snapped to this part of the largest extent: parts that are meant to touch then do."""
+_GRID = 2.0**-20  # corners are snapped to this part of the largest extent: parts that are meant to touch then do
 _SLIT = 2e-4
 """Gaps and slits no wider than twice this part of the largest extent are closed, slivers as thin are dropped."""
 

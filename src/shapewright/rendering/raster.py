@@ -16,14 +16,11 @@ from shapewright.threads import in_threads
 
 Singles = NDArray[np.float32]
 
-AMBIENT = 0.25
-"""Shading of a face that the light only grazes; 1 is a face that looks into it."""
-LIGHT = (0.35, 0.5, 0.79)
-"""Direction to the light, right, up and towards the camera; of length 1."""
+AMBIENT = 0.25  # shading of a face that the light only grazes; 1 is a face that looks into it
+LIGHT = (0.35, 0.5, 0.79)  # direction to the light, right, up and towards the camera; of length 1
 DEPTH_RADIUS = 0.87
 """Of the ball about the origin whose depths pictures tell apart: half the diagonal of a cube of side 1, rounded up."""
-_NEAR = 0.05
-"""Vertices nearer to the camera than this, in units of the largest extent, are not drawn."""
+_NEAR = 0.05  # vertices nearer to the camera than this, in units of the largest extent, are not drawn
 
 
 def render(
@@ -62,15 +59,6 @@ def view(mesh: Mesh, camera: Camera, size: int) -> tuple[Singles, Singles]:
     shade, inverse_depth = np.empty((2, size, size), dtype=np.float32)
     _draw_view(mesh.vertices, mesh.faces, pack([camera])[0], np.empty_like(mesh.vertices), shade, inverse_depth)
     return shade, inverse_depth
-
-
-def inverse_depths(mesh: Mesh, cameras: Sequence[Camera], size: int) -> Singles:
-    """One over the distance along each view of a normalised mesh, (C, size, size), row 0 at the top, 0 where empty."""
-    inverse = np.empty((len(cameras), size, size), dtype=np.float32)
-    shade, projected = np.empty((size, size), dtype=np.float32), np.empty_like(mesh.vertices)
-    for camera, image in zip(pack(cameras), inverse, strict=True):
-        _draw_view(mesh.vertices, mesh.faces, camera, projected, shade, image)
-    return inverse
 
 
 @njit(nogil=True, cache=True)

@@ -15,11 +15,9 @@ from numpy.typing import ArrayLike
 
 from shapewright.shapes import Bytes, Floats, Ints, Mesh
 
-SIZE = 256
-"""Rows and columns of a silhouette; it shows [-1, 1] x [-1, 1]."""
+SIZE = 256  # rows and columns of a silhouette; it shows [-1, 1] x [-1, 1]
 
-_SUBPIXELS = 256.0
-"""Places of a corner along a pixel, as on graphics hardware."""
+_SUBPIXELS = 256.0  # places of a corner along a pixel, as on graphics hardware
 _BELOW = 2.0**-30
 """Of a pixel: more than any rounding error, less than the distance of any crossing from a pixel centre."""
 

@@ -18,18 +18,15 @@ from shapewright.rendering.raster import AMBIENT, view
 from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.threads import in_threads
 
-SUPERSAMPLE = 3
-"""Samples of a pixel along either side."""
+SUPERSAMPLE = 3  # samples of a pixel along either side
 CREASE = math.radians(36.0)
 """Edges are drawn where the surface bends by more than this angle: rounded parts of 12 sides and more stay clean."""
 STEP = 0.012
 """Edges are drawn where one part stands in front of another by more than this, in units of the largest extent."""
 _DARKEST, _INK = 0.42, 0.4
 """The darkest grey, off black, so that a tint over it keeps its hue; and edges, as a part of their surroundings."""
-_GREYS = 32
-"""Fewer greys make smaller files, and nobody can tell 32 from 256 on flat faces."""
-_PLAIN = 150
-"""The grey of drawings, of 255: light enough for a tint over it to show."""
+_GREYS = 32  # fewer greys make smaller files, and nobody can tell 32 from 256 on flat faces
+_PLAIN = 150  # the grey of drawings, of 255: light enough for a tint over it to show
 
 
 def thumbnail(shape: Shape, size: int = 256, camera: Camera = THUMBNAIL) -> bytes:

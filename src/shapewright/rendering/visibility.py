@@ -16,7 +16,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import Camera, pack
-from shapewright.rendering.raster import Singles, inverse_depths
+from shapewright.rendering.raster import Singles, view
 from shapewright.shapes import Floats, Mesh
 
 _DISTANCE = 4.0
@@ -39,7 +39,7 @@ class AllRound:
         """size: of each picture, in pixels. radius: of the ball about the origin that fills a picture; 0.87 holds all
         of a normalised mesh."""
         cameras = _all_round(radius)
-        return cls(cameras, inverse_depths(mesh, cameras, size))
+        return cls(cameras, np.stack([view(mesh, camera, size)[1] for camera in cameras]))
 
     def shows(self, points: Floats, normals: Floats) -> NDArray[np.bool_]:
         """Whether some view shows each point (N, 3) of the surface. normals: (N, 3), of either orientation."""

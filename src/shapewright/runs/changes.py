@@ -12,8 +12,7 @@ from shapewright.runs.folder import read_record
 if TYPE_CHECKING:
     from shapewright.runs.iteration import Iteration
 
-Run: TypeAlias = "Iteration | str | Path | Mapping[str, Any]"
-"""An iteration, the folder of its run, or its record."""
+Run: TypeAlias = "Iteration | str | Path | Mapping[str, Any]"  # an iteration, the folder of its run, or its record
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from shapewright.settings import Settings
 from shapewright.shapes.files import encode
 from shapewright.storage import file_names
 
+_AS_RECORDED = ("seconds", "procedure", "collection", "metrics", "versions", "created")
 Pictures = Mapping[str, tuple[bytes, bytes | None]]
 
 
@@ -133,22 +134,15 @@ class Iteration:
         """Read a run back, without the references' meshes. Raises RunError when the folder holds no whole run."""
         folder = Path(folder).expanduser()
         record = read_record(folder)
-        settings = Settings.from_record(record["settings"])
-        groups = tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"])
         return cls(
             results=tuple(from_record(entry, read_replica(folder, entry)) for entry in record["references"]),
             metric=Metric.of_record(record),
-            groups=groups,
-            settings=settings,
-            seconds=record["seconds"],
-            procedure=record["procedure"],
+            groups=tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"]),
+            settings=Settings.from_record(record["settings"]),
             source=(folder / "procedure.py").read_text(encoding="utf-8"),
-            collection=record["collection"],
-            metrics=record["metrics"],
-            versions=record["versions"],
-            created=record["created"],
             pictures={entry["name"]: _read_pictures(folder, entry["slug"]) for entry in record["references"]},
             predictor=Predictor.load(folder / "predictor.pt") if (folder / "predictor.pt").exists() else None,
+            **{name: record[name] for name in _AS_RECORDED},
         )
 
     def _write(self, folder: Path) -> None:
@@ -204,7 +198,5 @@ def draw_pictures(results: Sequence[Result], threads: int | None = None) -> Pict
 
 
 def _read_pictures(folder: Path, slug: str) -> tuple[bytes, bytes | None]:
-    replica = folder / "thumbnails" / f"{slug}.replica.png"
-    return (folder / "thumbnails" / f"{slug}.reference.png").read_bytes(), (
-        replica.read_bytes() if replica.exists() else None
-    )
+    reference, replica = (folder / "thumbnails" / f"{slug}.{kind}.png" for kind in ("reference", "replica"))
+    return reference.read_bytes(), replica.read_bytes() if replica.exists() else None
