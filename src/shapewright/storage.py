@@ -1,7 +1,8 @@
 """Files and folders that are written whole or not at all, their safe names, and the user's folder for caches.
 
 Everything is written under a hidden name that ends in PARTIAL, and renamed when it is whole. An error removes it. A
-kill leaves it behind, hidden; a later writer of the same path removes it.
+kill leaves it behind, hidden; a later writer of the same path removes it. All that write raise OSError when the disk
+cannot be written.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ def whole_file(path: Path) -> Iterator[Path]:
     """A path to write a file to, which takes the place of ``path`` at the end of the block; or vanishes if that fails.
 
     The new file keeps the permissions of the old one. A link is replaced, not followed. Any number of processes may
-    write the same path. Raises OSError when the disk cannot be written.
+    write the same path.
     """
     partial = path.with_name(f".{path.name}.{os.urandom(4).hex()}{PARTIAL}")
     try:
@@ -41,10 +42,7 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 def write_file(path: Path, content: str | bytes) -> None:
-    """Write a file whole or not at all, text as UTF-8, and remove what killed writers of it left.
-
-    Raises OSError when the disk cannot be written.
-    """
+    """Write a file whole or not at all, text as UTF-8, and remove what killed writers of it left."""
     remove_leftovers(path.parent, path.name)
     with whole_file(path) as partial:
         partial.write_bytes(content.encode() if isinstance(content, str) else content)
@@ -54,7 +52,7 @@ def write_file(path: Path, content: str | bytes) -> None:
 def whole_folder(folder: Path) -> Iterator[Path]:
     """A folder of the same name to fill, which becomes ``folder`` at the end of the block; or vanishes if that fails.
 
-    Raises FileExistsError when ``folder`` holds something already, OSError when the disk cannot be written.
+    Raises FileExistsError when ``folder`` holds something already.
     """
     if not is_free(folder):
         raise FileExistsError(f"{folder}: there is something here already; name another folder")
@@ -67,10 +65,7 @@ def whole_folder(folder: Path) -> Iterator[Path]:
 
 @contextmanager
 def scratch_folder(path: Path) -> Iterator[Path]:
-    """A hidden folder beside ``path``, which is deleted at the end of the block.
-
-    Raises OSError when the disk cannot be written.
-    """
+    """A hidden folder beside ``path``, which is deleted at the end of the block."""
     path.parent.mkdir(parents=True, exist_ok=True)
     remove_leftovers(path.parent, path.name)
     with tempfile.TemporaryDirectory(PARTIAL, f".{path.name}.", path.parent, ignore_cleanup_errors=True) as scratch:

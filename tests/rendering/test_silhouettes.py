@@ -6,7 +6,7 @@ import pytest
 import trimesh
 
 from shapewright.comparison.light_field.dodecahedra import directions
-from shapewright.rendering.silhouettes import SIZE, draw, silhouettes, view_axes
+from shapewright.rendering.silhouettes import SIZE, draw, view_axes
 from shapewright.shapes import Mesh
 
 SHARED = Path(__file__).resolve().parents[2].parent / "shared"
@@ -19,6 +19,14 @@ def draw_in_front(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     vertices = np.column_stack([(points + 0.5) / (SIZE / 2) - 1.0, np.zeros(len(points))])
     draw(vertices, np.asarray(faces, dtype=np.int64), FRONT[None], image)
     return image[0]
+
+
+def silhouettes(mesh: Mesh, directions: np.ndarray) -> np.ndarray:
+    """Silhouettes (N, 256, 256) of a normalised mesh seen from N directions (N, 3)."""
+    normalised, axes = mesh.normalised(), view_axes(directions)
+    images = np.empty((len(axes), SIZE, SIZE), dtype=np.uint8)
+    draw(normalised.vertices, normalised.faces, axes, images)
+    return images
 
 
 def covered_exactly(points: np.ndarray) -> set[tuple[int, int]]:

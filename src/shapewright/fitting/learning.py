@@ -15,7 +15,7 @@ from shapewright.fitting.sensitivity import without_effect
 from shapewright.fitting.start import Start
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.augmentation import augmented
-from shapewright.prediction.dataset import Dataset, join, kind_of, make_dataset, shapes_of, split
+from shapewright.prediction.dataset import Dataset, join, make_dataset, shapes_of, split
 from shapewright.prediction.devices import pick
 from shapewright.prediction.inference import measure
 from shapewright.prediction.predictor import Predictor
@@ -26,7 +26,7 @@ from shapewright.progress import Listener, Stages
 from shapewright.rendering.cameras import PAGE, Camera, starting_views
 from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, Budget
 from shapewright.settings import Searching, Settings
-from shapewright.shapes import Drawing, Shape
+from shapewright.shapes import Drawing, Mesh, Shape
 
 FIRST = 256  # samples that are built and drawn before all others, for the first answer
 
@@ -76,7 +76,11 @@ def learn(crew: Workers, settings: Settings, stages: Stages, start: Start | None
     vectors = space.sample(count, seed=settings.seed)
     stages.begin("sample", len(vectors))
     builds = crew.build(vectors[:FIRST], give_up=True)
-    kind = start.references.kind if start else kind_of(builds)
+    kind = (
+        start.references.kind
+        if start
+        else next((type(build.shape) for build in builds if build.shape is not None), Mesh)
+    )
     cameras = _cameras(kind, settings, previous)
     first = _draw(space, builds, cameras, settings, kind)
     if start and not start.resumed:
@@ -103,10 +107,7 @@ def learn(crew: Workers, settings: Settings, stages: Stages, start: Start | None
 def learn_more(
     crew: Workers, settings: Settings, stages: Stages, lesson: Lesson, centres: Sequence[Parameters], number: int
 ) -> Lesson:
-    """Train further with samples around the centres; those that predictions are measured on stay the same.
-
-    number: of the round, from 0.
-    """
+    """Train further with samples around the centres; what predictions are measured on stays. number: round, from 0."""
     space, seed = crew.procedure.space, settings.seed + number + 1
     vectors = around(space, centres, lesson.predictor.metrics, settings.round_samples, seed)
     stages.begin("sample", len(vectors))

@@ -59,10 +59,7 @@ def resume(start: Start, crew: Workers, judge: Judge) -> Replicas:
 def replicate(
     crew: Workers, judge: Judge, lesson: Lesson, stages: Stages, replicas: Replicas, new: AbstractSet[str] | None = None
 ) -> Replicas:
-    """Try the predicted parameters, and search from there for references whose replica was not near before.
-
-    new: see ``SearchStart``.
-    """
+    """Try the predicted parameters; search from there where no replica was near before. new: see ``SearchStart``."""
     settings, known = judge.settings, [build.parameters if build else None for build in replicas.builds]
     rows = np.flatnonzero(~(replicas.distances <= _NEAR * judge.metric.threshold))
     stages.begin("predict", len(known))

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
-from typing import Any
 
 from shapewright.building import Build
 from shapewright.comparison.grouping import Group
@@ -17,7 +16,6 @@ from shapewright.judging.judge import Judge
 from shapewright.parameters import to_record
 from shapewright.procedures import Procedure
 from shapewright.progress import Stages
-from shapewright.references import Collection
 from shapewright.runs.iteration import Iteration, draw_pictures
 from shapewright.runs.result import Result
 
@@ -65,7 +63,8 @@ def recorded(
 ) -> Iteration:
     """The iteration, with pictures of its results. turns: quarter turns of the references about the up axis."""
     stages.begin("picture", 1)
-    references, pictures = judge.references, draw_pictures(results, judge.settings.workers)
+    references, predictor = judge.references, lesson.predictor
+    pictures = draw_pictures(results, judge.settings.workers)
     stages.end()
     return Iteration(
         results=results,
@@ -88,25 +87,20 @@ def recorded(
             "count": len(references),
             "skipped": {str(path): reason for path, reason in references.skipped.items()},
         },
-        metrics=_metrics(references, lesson, turns, stages),
+        metrics={
+            "samples": predictor.samples,
+            **lesson.facts,
+            "first_answer": stages.first_answer,
+            "turned": {name: 90 * turn for name, turn in zip(references.names, turns, strict=True) if turn},
+            "epochs": len(predictor.curve),
+            "curve": [vars(epoch) for epoch in predictor.curve],
+            "validation": predictor.metrics,
+        },
         versions={"python": platform.python_version(), **{name: version(name) for name in VERSIONED}},
         created=datetime.now(UTC).isoformat(timespec="seconds"),
         pictures=pictures,
-        predictor=lesson.predictor,
+        predictor=predictor,
     )
-
-
-def _metrics(references: Collection, lesson: Lesson, turns: Sequence[int], stages: Stages) -> Mapping[str, Any]:
-    predictor = lesson.predictor
-    return {
-        "samples": predictor.samples,
-        **lesson.facts,
-        "first_answer": stages.first_answer,
-        "turned": {name: 90 * turn for name, turn in zip(references.names, turns, strict=True) if turn},
-        "epochs": len(predictor.curve),
-        "curve": [vars(epoch) for epoch in predictor.curve],
-        "validation": predictor.metrics,
-    }
 
 
 def _error(build: Build, distance: float) -> str | None:

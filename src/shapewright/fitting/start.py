@@ -15,10 +15,7 @@ from shapewright.runs.iteration import Iteration
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """Where a fit starts.
-
-    ``new`` names no parameters of other kinds than scalars: of those all likely values are tried anyway.
-    """
+    """Where a fit starts; ``new`` has scalars alone, since all likely values of other kinds are tried anyway."""
 
     references: Collection  # those to fit
     resumed: bool  # whether there is an earlier iteration

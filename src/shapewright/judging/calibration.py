@@ -80,10 +80,7 @@ def fit_metric(table: Floats, same: NDArray[np.bool_]) -> Weights:
 
 
 def is_same(metric: Weights, distance: float, iou: float, depth: float) -> bool:
-    """Whether the metric takes a pair for the same: where bias + weights . measures is at least 0.
-
-    False where a measure is NaN.
-    """
+    """Whether a metric takes a pair for the same: bias + weights . measures is at least 0, and no measure is NaN."""
     bias, *weights = metric
     return bool(bias + float(np.dot(weights, [distance, iou, depth])) >= 0.0)
 

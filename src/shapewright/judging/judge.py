@@ -55,10 +55,7 @@ class Judge:
         return self.targets[0].goal
 
     def distances(self, builds: Sequence[Build], rows: Rows | None = None) -> Floats:
-        """Distance of one build for each reference, (N,); NaN where it cannot be measured.
-
-        rows: the references that the builds are for, all of them by default.
-        """
+        """The distance of each build to its reference, those of ``rows`` or all: (N,); NaN where there is none."""
         return self.nearest(builds, rows)[0]
 
     def nearest(self, builds: Sequence[Build], rows: Rows | None = None) -> tuple[Floats, Ints]:

@@ -3,7 +3,6 @@
 from shapewright.parameters.kinds import (
     Binary,
     Choice,
-    Condition,
     Integer,
     Parameter,
     Parameters,
@@ -20,7 +19,6 @@ from shapewright.parameters.space import End, Excess, ParameterSpace
 __all__ = [
     "Binary",
     "Choice",
-    "Condition",
     "End",
     "Excess",
     "Integer",

@@ -93,10 +93,7 @@ class Prediction:
         return self.space.distinct([np.array(vector) for _, vector in beams])[:count]
 
     def surprise(self, row: int, vector: Vector) -> float:
-        """Minus the logarithm of the probability that one shape has the choices of an encoded vector.
-
-        Only parameters that matter there count.
-        """
+        """Minus the logarithm of the probability that one shape has the choices of an encoded vector that matter."""
         active = set(self.space.active(self.space.decode(vector)))
         chances = [
             column[row][int(encoded)]

@@ -58,16 +58,8 @@ class Dataset:
         return replace(self, images=images, cameras=tuple(cameras))
 
 
-def kind_of(builds: Sequence[Build]) -> type[Shape]:
-    """Mesh or Drawing: what the first build that did not fail gave."""
-    return next((type(build.shape) for build in builds if build.shape is not None), Mesh)
-
-
 def shapes_of(builds: Sequence[Build], kind: type[Shape]) -> tuple[list[Build], list[Shape]]:
-    """The builds that gave a shape of this kind, and these shapes normalised.
-
-    Raises ProcedureError when fewer than 10 did.
-    """
+    """The builds with a shape of this kind, and these shapes normalised. Raises ProcedureError for fewer than 10."""
     good = [build for build in builds if isinstance(build.shape, kind)]
     if len(good) < min(10, len(builds)):
         built, wanted = ("drawings", "meshes") if kind is Mesh else ("meshes", "drawings")

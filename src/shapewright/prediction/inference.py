@@ -36,16 +36,10 @@ def outputs(network: nn.Module, images: NDArray[np.uint8]) -> list[Tensor]:
 
 def infer(network: nn.Module, space: ParameterSpace, images: NDArray[np.uint8]) -> Prediction:
     """What is likely for images (N, C, 2, S, S), at least one."""
-    columns: list[Floats] = []
-    spreads: list[Floats | None] = []
-    for parameter, output in zip(space, outputs(network, images), strict=True):
-        if parameter.classes:
-            columns.append(output.softmax(dim=1).numpy())
-            spreads.append(None)
-        else:
-            columns.append(output[:, 0].clamp(0.0, 1.0).numpy())
-            spreads.append(output[:, 1].exp().numpy())
-    return Prediction(space, tuple(columns), tuple(spreads))
+    answers = list(zip(space, outputs(network, images), strict=True))
+    columns = tuple((out.softmax(dim=1) if p.classes else out[:, 0].clamp(0.0, 1.0)).numpy() for p, out in answers)
+    spreads = tuple(None if p.classes else out[:, 1].exp().numpy() for p, out in answers)
+    return Prediction(space, columns, spreads)
 
 
 def calibrate(network: nn.Module, space: ParameterSpace, validation: Dataset) -> None:

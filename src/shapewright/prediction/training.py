@@ -14,6 +14,8 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 from torch import nn
+from torch.optim import Adam, AdamW, Optimizer
+from torch.optim.lr_scheduler import ConstantLR, LRScheduler, OneCycleLR
 
 from shapewright.parameters import ParameterSpace
 from shapewright.prediction.cameras import LearnedCameras, camera_gradient
@@ -141,17 +143,13 @@ def _epochs_of_cameras(schedule: Schedule) -> int:
     return schedule.epochs if schedule.optimiser == "adam" else math.ceil(schedule.epochs * _CAMERA_SHARE)
 
 
-def _optimiser(
-    network: nn.Module, schedule: Schedule, steps: int
-) -> tuple[torch.optim.Optimizer, torch.optim.lr_scheduler.LRScheduler]:
+def _optimiser(network: nn.Module, schedule: Schedule, steps: int) -> tuple[Optimizer, LRScheduler]:
     fused = next(network.parameters()).device.type != "mps"  # not in every torch that we run with
-    kind = torch.optim.Adam if schedule.optimiser == "adam" else torch.optim.AdamW
+    kind = Adam if schedule.optimiser == "adam" else AdamW
     optimiser = kind(network.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay, fused=fused)
     if schedule.optimiser == "adam":
-        return optimiser, torch.optim.lr_scheduler.ConstantLR(optimiser, factor=1.0)
-    return optimiser, torch.optim.lr_scheduler.OneCycleLR(
-        optimiser, schedule.learning_rate, total_steps=steps, pct_start=0.1
-    )
+        return optimiser, ConstantLR(optimiser, factor=1.0)
+    return optimiser, OneCycleLR(optimiser, schedule.learning_rate, total_steps=steps, pct_start=0.1)
 
 
 def _inherit(network: nn.Module, initial: nn.Module) -> None:

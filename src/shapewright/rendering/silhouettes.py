@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike
 
-from shapewright.shapes import Bytes, Floats, Ints, Mesh
+from shapewright.shapes import Bytes, Floats, Ints
 
 SIZE = 256  # rows and columns of a silhouette; it shows [-1, 1] x [-1, 1]
 
@@ -37,22 +37,12 @@ def view_axes(directions: ArrayLike) -> Floats:
     return np.stack([right, up / np.linalg.norm(up, axis=-1, keepdims=True)], axis=-2)
 
 
-def silhouettes(mesh: Mesh, directions: ArrayLike) -> Bytes:
-    """Silhouettes (N, 256, 256) of a mesh seen from N directions (N, 3): 1 where a triangle covers the pixel's centre.
-
-    The mesh is centred and scaled to a largest extent of 1 first; row 0 is the bottom row.
-    Raises ValueError when the mesh has no faces or no size.
-    """
-    normalised = mesh.normalised()
-    axes = view_axes(directions)
-    images = np.empty((len(axes), SIZE, SIZE), dtype=np.uint8)
-    draw(normalised.vertices, normalised.faces, axes, images)
-    return images
-
-
 @njit(nogil=True, cache=True)
 def draw(vertices: Floats, faces: Ints, axes: Floats, images: Bytes) -> None:
-    """Draw triangles in N views (N, 2, 3); vertices (V, 3) that faces use lie at most 1 from the origin."""
+    """Draw triangles in N views (N, 2, 3): 1 where one covers the pixel's centre; row 0 is the bottom row.
+
+    Vertices (V, 3) that faces use lie at most 1 from the origin.
+    """
     columns, rows = np.empty(len(vertices)), np.empty(len(vertices))
     images[:] = 0
     for n in range(len(images)):

@@ -36,8 +36,7 @@ class AllRound:
 
     @classmethod
     def of(cls, mesh: Mesh, size: int, radius: float) -> AllRound:
-        """size: of each picture, in pixels. radius: of the ball about the origin that fills a picture; 0.87 holds all
-        of a normalised mesh."""
+        """size: of a picture, in pixels. radius: of the ball that fills it; 0.87 holds all of a normalised mesh."""
         cameras = _all_round(radius)
         return cls(cameras, np.stack([view(mesh, camera, size)[1] for camera in cameras]))
 
@@ -68,10 +67,7 @@ def _all_round(radius: float) -> tuple[Camera, ...]:
 
 @njit(nogil=True, cache=True)
 def _shown(points: Floats, normals: Floats, cameras: Floats, views: Singles) -> NDArray[np.bool_]:
-    """Whether a view shows each point: nothing there is nearer to the camera by more than a pixel's slant.
-
-    cameras: rows of ``cameras.pack``.
-    """
+    """Whether a view, of packed cameras, shows each point: nothing is nearer to it by more than a pixel's slant."""
     seen = np.zeros(len(points), np.bool_)
     half = views.shape[1] / 2.0
     last = views.shape[1] - 1

@@ -94,9 +94,6 @@ def read_record(folder: Path) -> dict[str, Any]:
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """A file of a run; None stands for a number that is not finite, since browsers refuse these.
-
-    Raises OSError or ValueError for a file that cannot be read.
-    """
+    """A file of a run; None for a number that is not finite, which browsers refuse. Raises OSError or ValueError."""
     record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"), parse_constant=lambda _: None)
     return record

@@ -7,7 +7,8 @@ The file is a JSON list, in the order of marking, of objects
 where ``a`` is a reference and ``b`` the reference whose replica it was compared with, which is ``a`` itself where an
 author judges a reference and its own replica. ``run`` is the folder's name of the run that made the replica, and
 ``measures`` is what that run measured between the two. Both may be missing, and so may single measures; then the
-current run says what they are. Other entries of an object stay unchanged.
+current run says what they are. Other entries of an object stay unchanged. A file that cannot be read or written is a
+RunError.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ def marks_path(run: Path) -> Path:
 def mark(run: Path, name: str, same: bool) -> Path:
     """Add a mark for a reference and its replica in a run, in the place of an earlier one; return the file's path.
 
-    Raises RunError for an unknown reference, one without a replica, and a file that cannot be read or written.
+    Raises RunError for an unknown reference, and for one without a replica.
     """
     record = read_record(run)
     found = {entry["name"]: entry for entry in record["references"]}
@@ -60,10 +61,7 @@ def mark(run: Path, name: str, same: bool) -> Path:
 
 
 def pairs(project: Path) -> list[tuple[str, str, bool]]:
-    """What a project's folder holds: a, b, and whether they are the same, of a pair that was judged twice the last.
-
-    Raises RunError for a file that cannot be read.
-    """
+    """What a project's folder holds: a, b, and whether they are the same, of a pair that was judged twice the last."""
     judged = {(entry["a"], entry["b"]): bool(entry["same"]) for entry in _read(project / MARKS)}
     return [(a, b, same) for (a, b), same in judged.items()]
 
@@ -71,7 +69,7 @@ def pairs(project: Path) -> list[tuple[str, str, bool]]:
 def replace_pairs(project: Path, wanted: Sequence[tuple[str, str, bool]], known: set[str], run: Path | None) -> None:
     """Make the marks of known references these; a judgement that stays keeps all that is noted of it.
 
-    run: that the new ones are judged by, which notes what it measured. Raises RunError.
+    run: that the new ones are judged by, which notes what it measured.
     """
     path = project / MARKS
     old = {(a, b): same for a, b, same in pairs(project)}

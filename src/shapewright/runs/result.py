@@ -92,10 +92,7 @@ def replica_path(replica: Shape | None, slug: str) -> str | None:
 
 
 def read_replica(run: Path, entry: Mapping[str, Any]) -> Shape | None:
-    """The replica of an entry in a run's record, with its labels; None where it has none.
-
-    Raises OSError or ValueError for a file that is missing or broken.
-    """
+    """The replica of an entry in a run's record, with its labels, if it has one. Raises OSError or ValueError."""
     if not entry["replica"]:
         return None
     data = (run / entry["replica"]).read_bytes()
