@@ -109,9 +109,8 @@ def print_iteration(iteration: Iteration, folder: Path) -> None:
     if iteration.groups:
         table = Table("group", "references", "distance", box=None, header_style="dim", title_justify="left")
         for group in iteration.groups[:10]:
-            table.add_row(
-                escape(group.representative), str(len(group)), f"{iteration[group.representative].distance:.2f}"
-            )
+            distance = iteration[group.representative].distance
+            table.add_row(escape(group.representative), str(len(group)), f"{distance:.2f}")
         out.print("\nmisfits that look alike, by the one in their middle:")
         out.print(table)
         if len(iteration.groups) > 10:

@@ -157,9 +157,9 @@ def _train(
 
 def _cameras(kind: type[Shape], settings: Settings, previous: Predictor | None) -> tuple[Camera, ...]:
     """Those of the previous predictor, where it has as many."""
-    cameras = (PAGE,) if kind is Drawing else starting_views(settings.views, settings.camera_distance)
-    same = previous and len(previous.cameras) == len(cameras) and kind is not Drawing
-    return previous.cameras if previous and same else cameras
+    if kind is not Drawing and previous and len(previous.cameras) == settings.views:
+        return previous.cameras
+    return (PAGE,) if kind is Drawing else starting_views(settings.views, settings.camera_distance)
 
 
 def _draw(

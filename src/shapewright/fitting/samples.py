@@ -82,8 +82,7 @@ def write_samples(
     try:
         rows = _resume(folder, record, vectors)
         failed: list[Build] = []
-        threads = workers or cores()
-        with Workers(procedure, workers) as crew, ThreadPoolExecutor(threads) as pool:
+        with Workers(procedure, workers) as crew, ThreadPoolExecutor(workers or cores()) as pool:
             while len(rows) < len(vectors):
                 chunk = vectors[len(rows) : len(rows) + max(_CHUNK, len(rows) // 8)]
                 builds = crew.build(chunk)

@@ -98,9 +98,7 @@ def train_network(
     each = max(1, threads // count)
     batches = math.ceil(len(training) / schedule.batch)
     moving = _epochs_of_cameras(schedule)
-    cameras = LearnedCameras(
-        training.cameras, schedule.camera_rate, moving * batches, constant=schedule.optimiser == "adam"
-    )
+    cameras = LearnedCameras(training.cameras, schedule.camera_rate, moving * batches, schedule.optimiser == "adam")
     rng = np.random.default_rng(schedule.seed)
     exact = torch.backends.cudnn.flags(enabled=True, benchmark=False, deterministic=True)
     with torch_threads(each), torch.random.fork_rng(devices=[]), exact:

@@ -55,11 +55,10 @@ def compare(before: Run, after: Run, tolerance: float = 0.02) -> Comparison:
         else:
             continue
         moves[kind].append(Move(name, old, new))
-    ordered = {
-        kind: tuple(sorted(some, key=lambda move: (_far(move.after), move.name))) for kind, some in moves.items()
-    }
+    for some in moves.values():
+        some.sort(key=lambda move: (_far(move.after), move.name))
     return Comparison(
-        **ordered,
+        **{kind: tuple(some) for kind, some in moves.items()},
         added=tuple(name for name in now if name not in then),
         removed=tuple(name for name in then if name not in now),
     )
