@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from shapewright.studio.bench.messages import Answer, Answered, Fetch, LiveMessage, News, Ready, Reply, Request
 from shapewright.studio.project.workspace import Missing
+from shapewright.studio.wire.changes import BenchState
 from shapewright.studio.wire.child import Child, Frame, on_this_loop
 from shapewright.studio.wire.values import Slug
 
@@ -27,25 +28,20 @@ class BenchProcess:
 
     heard: called with every message for the session, and its payload.
     answered: called with a page's number, a message for it or None, and a payload.
-    started: called after every start; the bench then knows nothing.
-    lost: called when it has died.
+    changed: called whenever ``state`` does; a bench that has become ready knows nothing.
     """
 
     def __init__(
         self,
         heard: Callable[[News, bytes], object],
         answered: Callable[[int, LiveMessage | None, bytes], object],
-        started: Callable[[], object],
-        lost: Callable[[], object],
+        changed: Callable[[], object],
     ) -> None:
-        self._heard, self._answered, self._started, self._lost = heard, answered, started, lost
+        self._heard, self._answered, self._changed = heard, answered, changed
+        self.state: BenchState = "starting"
         self._child: Child | None = None
         self._replies: dict[int, asyncio.Future[tuple[Reply, bytes]]] = {}
         self._numbers = itertools.count(1)
-
-    @property
-    def ready(self) -> bool:
-        return self._child is not None
 
     async def run(self) -> None:
         """Keep a bench going until cancelled. Raises BenchError when it dies again and again as soon as it starts."""
@@ -65,14 +61,14 @@ class BenchProcess:
                     reply.set_exception(BenchError("the bench had to start again; ask once more"))
             self._replies.clear()
             hasty = hasty + 1 if time.monotonic() - started < _SOON else 0
-            self._lost()
+            self._change("restarting")
         raise BenchError(f"the bench process ended {_OFTEN} times as soon as it had started; the terminal says more")
 
     def _hear(self, child: Child, message: Answer, payload: bytes) -> None:
         match message:
             case Ready():
                 self._child = child
-                self._started()
+                self._change("ready")
             case Answered():
                 self._answered(message.client, message.message, payload)
             case Reply():
@@ -82,8 +78,12 @@ class BenchProcess:
             case _:
                 self._heard(message, payload)
 
+    def _change(self, state: BenchState) -> None:
+        self.state = state
+        self._changed()
+
     def ask(self, request: Request) -> None:
-        """Send a request; without a bench it is lost, and ``started`` will say when there is one again."""
+        """Send a request; without a bench it is lost, and ``changed`` will say when there is one again."""
         if self._child:
             self._child.send(request)
 
@@ -92,7 +92,7 @@ class BenchProcess:
 
         Raises BenchError, Missing where there is no such thing.
         """
-        if not self.ready:
+        if not self._child:
             raise BenchError("the bench is starting; ask again in a moment")
         number = next(self._numbers)
         self._replies[number] = reply = asyncio.get_running_loop().create_future()

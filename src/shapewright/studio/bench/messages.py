@@ -6,6 +6,7 @@ from typing import Any, Literal, TypeAlias
 
 from msgspec import Struct
 
+from shapewright.building.outcomes import Limits
 from shapewright.settings import Align
 from shapewright.studio.project.listing import Origin
 from shapewright.studio.wire.answers import DistanceMessage, DrawingMessage, FailedMessage
@@ -45,8 +46,7 @@ class Load(BenchMessage, frozen=True):
 
     load: int  # its number
     procedure: str
-    seconds: float  # what building one shape may take
-    memory_mb: int  # memory that it may take
+    limits: Limits
 
 
 class SweepOrder(BenchMessage, frozen=True):

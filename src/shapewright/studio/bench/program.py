@@ -12,7 +12,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from shapewright.building.outcomes import Limits
 from shapewright.judging.judge import target_of
 from shapewright.judging.target import Measures, Target
 from shapewright.references.errors import CollectionError, UnreadableError
@@ -27,12 +26,12 @@ from shapewright.studio.bench.residual_colours import ResidualColours
 from shapewright.studio.bench.sweep import Sweep
 from shapewright.studio.bench.workshop import Broken, Workshop
 from shapewright.studio.project.listing import Listing, listing
-from shapewright.studio.wire.answers import DrawingMessage, FailedMessage
+from shapewright.studio.wire.answers import DistanceMessage, DrawingMessage, FailedMessage
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.detail import About
 from shapewright.studio.wire.problems import Problem, of_failure
 from shapewright.studio.wire.requests import Evaluate
-from shapewright.studio.wire.values import Slug, Values
+from shapewright.studio.wire.values import Slug, Values, message_of
 
 _MEMORY = 24 * 2**20
 
@@ -111,7 +110,7 @@ class Bench:
         path = Path(request.procedure)
         self._root = path.parent
         try:
-            version = self._workshop.load(path, Limits(request.seconds, request.memory_mb))
+            version = self._workshop.load(path, request.limits)
         except Broken as error:
             self._send(messages.Unusable(load=request.load, problem=error.problem))
         else:
@@ -167,7 +166,8 @@ class Bench:
             answer(shape_messages.drawing_message(replica, reference, **head))
         if slug is None or self._inbox.outdated:
             return
-        answer(shape_messages.distance_message(target.measures(replica) if target else Measures(), number, slug))
+        measures = target.measures(replica) if target else Measures()
+        answer(message_of(DistanceMessage, measures, id=number, slug=slug))
         if not request.residuals or self._inbox.outdated:
             return
         if target is None or not isinstance(target.shape, Mesh) or not isinstance(replica, Mesh):

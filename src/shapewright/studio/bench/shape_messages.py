@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 import shapely
 
-from shapewright.judging.target import Measures
 from shapewright.references.collection import Reference
 from shapewright.shapes import Drawing, Mesh
 from shapewright.studio.bench.built import Built
 from shapewright.studio.bench.residual_colours import LIMIT, Residual
-from shapewright.studio.wire.answers import DistanceMessage, DrawingMessage, Extent, MeshHead, ResidualsHead, binary
+from shapewright.studio.wire.answers import DrawingMessage, Extent, MeshHead, ResidualsHead, binary
 from shapewright.studio.wire.detail import About, Units
-from shapewright.studio.wire.values import Slug
 
 _DIGITS = 5
 _LEAST = 1e-7  # of the area that a path shows; two equal edges leave slivers of rounding between them
@@ -34,22 +31,6 @@ def about(reference: Reference) -> About:
             axes=(reference.orientation.matrix if solid else np.eye(2)).tolist(),
             size=np.abs(reference.orientation.invert(extent) if solid else extent).tolist(),
         ),
-    )
-
-
-def plain(measure: float) -> float | None:
-    """A measure for JSON, which has no NaN."""
-    return None if math.isnan(measure) else measure
-
-
-def distance_message(measures: Measures, number: int, slug: Slug) -> DistanceMessage:
-    """Of a replica; distance, IoU and Chamfer distance are None where they cannot be measured."""
-    return DistanceMessage(
-        id=number,
-        slug=slug,
-        distance=plain(measures.distance),
-        iou=plain(measures.iou),
-        chamfer=plain(measures.chamfer),
     )
 
 

@@ -11,7 +11,6 @@ from shapewright.rendering.thumbnails import thumbnail
 from shapewright.studio.bench.built import Built
 from shapewright.studio.bench.gallery import Shelf, in_turn, shape_bytes
 from shapewright.studio.bench.messages import Measured, News, SweepEnded, Swept
-from shapewright.studio.bench.shape_messages import plain
 from shapewright.studio.bench.workshop import Workshop
 from shapewright.studio.wire.problems import of_failure
 from shapewright.studio.wire.values import Slug, Values
@@ -61,7 +60,7 @@ class Sweep:
             target = self.target(slug)
             if target and again.build.shape is not None:
                 distance, _ = target.nearest(again.build.shape.normalised())
-                self.send(Measured(sweep=self.number, slug=slug, distance=plain(distance)), b"")
+                self.send(Measured(sweep=self.number, slug=slug, distance=distance), b"")
             yield
         self.send(SweepEnded(sweep=self.number, given_up=False), b"")
 

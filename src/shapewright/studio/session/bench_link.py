@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 from msgspec.structs import replace
 
+from shapewright.building.outcomes import Limits
 from shapewright.settings import Settings
 from shapewright.studio.bench.client import BenchProcess
 from shapewright.studio.bench.messages import First, Live, LiveMessage, Load, News, Pictures, References, SweepOrder
@@ -15,7 +16,6 @@ from shapewright.studio.session.board import tint
 from shapewright.studio.session.display import Display
 from shapewright.studio.session.pages import Pages
 from shapewright.studio.wire.answers import DistanceMessage
-from shapewright.studio.wire.changes import BenchState
 from shapewright.studio.wire.collection import Stage
 from shapewright.studio.wire.requests import Evaluate
 from shapewright.studio.wire.values import Slug, Values
@@ -36,18 +36,16 @@ class BenchLink:
         """Link a session and its bench.
 
         heard: called with every message of the bench for the session.
-        changed: called whenever ``state`` does.
+        changed: called whenever the state of the process does.
         """
         self._project, self._authored, self._display, self._pages = project, authored, display, pages
-        self.process = BenchProcess(heard, self._answered, self._started, self._lost)
-        self.state: BenchState = "starting"
-        self._changed = changed
+        self.process = BenchProcess(heard, self._answered, changed)
         self._waiting: dict[int, Evaluate] = {}
         self._first: list[Slug] = []
 
     def evaluate(self, page: int, request: Evaluate) -> None:
         """Live evaluation; what a page asks while the bench starts waits, the newest alone."""
-        if self.state != "ready" or self._authored.state == "loading":
+        if self.process.state != "ready" or self._authored.state == "loading":
             self._waiting[page] = request
             return
         shown = self._display.board.references.get(request.slug) if request.slug is not None else None
@@ -79,27 +77,13 @@ class BenchLink:
 
     def load(self, settings: Settings) -> None:
         """Have the procedure read again."""
-        self.process.ask(
-            Load(
-                load=self._authored.load,
-                procedure=str(self._project.procedure),
-                seconds=settings.shape_seconds,
-                memory_mb=settings.shape_memory_mb,
-            )
-        )
+        limits = Limits(settings.shape_seconds, settings.shape_memory_mb)
+        self.process.ask(Load(load=self._authored.load, procedure=str(self._project.procedure), limits=limits))
 
     def sweep(self, stage: Stage, items: Mapping[Slug, Values]) -> None:
         """Show replicas with these parameters."""
         number = self._display.begin_sweep(stage, list(items))
         self.process.ask(SweepOrder(sweep=number, items=dict(items)))
-
-    def _started(self) -> None:
-        self.state = "ready"
-        self._changed()
-
-    def _lost(self) -> None:
-        self.state = "restarting"
-        self._changed()
 
     def _answered(self, page: int, message: LiveMessage | None, payload: bytes) -> None:
         if isinstance(message, DistanceMessage):

@@ -13,6 +13,7 @@ from shapewright.building.outcomes import Failure
 from shapewright.judging.paper import Metric, light_field_metric
 from shapewright.parameters import Parameters
 from shapewright.report.page import colour
+from shapewright.runs.folder import read_record
 from shapewright.settings import Settings
 from shapewright.studio.project.listing import Listing
 from shapewright.studio.project.picture_store import Pictures
@@ -107,36 +108,34 @@ def lay_out(
     listed: Listing,
     pictures: Pictures,
     kept: Mapping[str, str | None],
-    record: Record | None = None,
-    folder: Path | None = None,
-    previous: Record | None = None,
-    metric: Metric | None = None,
+    run: Path | None,
+    previous: Path | None,
+    metric: Metric,
 ) -> Board:
-    """The board of a listing, as far as a run knows its references.
+    """The board of a listing, as far as a run knows its references. Raises RunError.
 
     kept: addresses of the references' pictures, None where there is none yet.
-    record: of the run.
-    folder: of the run.
-    previous: record of the run before.
+    run: its folder.
+    previous: the folder of the run before.
     metric: of a board without a run.
     """
-    known = {entry["name"]: entry for entry in record["references"]} if record else {}
-    before = {entry["name"]: entry["distance"] for entry in previous["references"]} if previous else {}
-    references = {}
-    for slug, source in listed.sources.items():
-        state = ReferenceState(slug, source.name, reference=kept.get(slug), previous=before.get(source.name))
-        entry = known.get(source.name)
-        references[slug] = _filled(state, entry, pictures, folder) if entry and folder else state
-    slugs = {state.name: slug for slug, state in references.items()}
+    earlier = read_record(previous)["references"] if previous else []
+    before = {entry["name"]: entry["distance"] for entry in earlier}
+    references = {
+        slug: ReferenceState(slug, source.name, reference=kept.get(slug), previous=before.get(source.name))
+        for slug, source in listed.sources.items()
+    }
     skipped = {str(path): reason for path, reason in listed.skipped.items()}
-    skipped |= record["collection"]["skipped"] if record else {}
-    return Board(
-        references,
-        tuple(_groups(record["groups"], slugs)) if record else (),
-        folder.name if folder else None,
-        Metric.of_record(record) if record else metric or light_field_metric(Settings.threshold),
-        skipped,
-    )
+    if run is None:
+        return Board(references, metric=metric, skipped=skipped)
+    record = read_record(run)
+    slugs = {state.name: slug for slug, state in references.items()}
+    for entry in record["references"]:
+        if entry["name"] in slugs:
+            slug = slugs[entry["name"]]
+            references[slug] = _filled(references[slug], entry, pictures, run)
+    groups = tuple(_groups(record["groups"], slugs))
+    return Board(references, groups, run.name, Metric.of_record(record), skipped | record["collection"]["skipped"])
 
 
 def tint(distance: float | None, metric: Metric) -> str | None:

@@ -9,7 +9,7 @@ from typing import Any
 
 from shapewright.judging.paper import Metric
 from shapewright.runs.folder import RunError, read_record
-from shapewright.studio.bench.messages import Measured, SweepEnded, Swept
+from shapewright.studio.bench.messages import Drawn, Measured, SweepEnded, Swept, Unreadable
 from shapewright.studio.project.listing import Listing, kept_picture, listing
 from shapewright.studio.project.picture_store import Pictures
 from shapewright.studio.project.workspace import Project
@@ -78,9 +78,8 @@ class Display:
         """Show a run, or references alone, to the pages."""
         self.stop_sweep()
         self.run = run
-        self.board = self.laid_out(run, metric)
+        self._put_up(self.laid_out(run, metric))
         self._forget_pictures()
-        self.pages.publish(CollectionChanged(collection=self.board.collection()))
         self._report_problems()
 
     def laid_out(self, run: Path | None, metric: Metric) -> Board:
@@ -91,9 +90,8 @@ class Display:
             self.listed,
             self.pictures,
             {slug: self._kept(slug) for slug in self.listed.sources},
-            read_record(run) if run else None,
             run,
-            read_record(before) if before else None,
+            before,
             metric,
         )
         for slug, (path, reason) in self._unreadable.items():
@@ -115,22 +113,13 @@ class Display:
         """By name."""
         return {state.name: slug for slug, state in self.board.references.items()}
 
-    def drawn(self, slug: Slug, png: bytes) -> None:
-        """Take up the picture of a reference."""
-        self._change(slug, reference=self.pictures.add(png))
-
-    def unreadable(self, slug: Slug, reason: str) -> None:
-        """Leave a reference out that cannot be read."""
-        if slug in self.board.references:
-            path = str(self.listed.sources[slug].path)
-            self._unreadable[slug] = path, reason
-            self.board = self.board.without(slug, path, reason)
-            self.pages.publish(CollectionChanged(collection=self.board.collection()))
-
     def stale(self) -> None:
         """Everything shown is of an older version."""
-        self.board = self.board.with_all(stale=True)
-        self.pages.publish(CollectionChanged(collection=self.board.collection()))
+        self._put_up(self.board.with_all(stale=True))
+
+    def _put_up(self, board: Board) -> None:
+        self.board = board
+        self.pages.publish(CollectionChanged(collection=board.collection()))
 
     def begin_sweep(self, stage: Stage, slugs: list[Slug]) -> int:
         """The number of a sweep that is about to begin; what earlier ones still send is passed over."""
@@ -145,10 +134,25 @@ class Display:
         self._sweep += 1
         self.swept.set()
 
-    def take(self, message: Swept | Measured | SweepEnded, payload: bytes) -> None:
-        """Apply what the bench says of a sweep."""
-        if message.sweep != self._sweep:
-            return
+    def take(self, message: Drawn | Unreadable | Swept | Measured | SweepEnded, payload: bytes) -> None:
+        """Apply what the bench says of references and replicas."""
+        match message:
+            case Drawn():
+                self._change(message.slug, reference=self.pictures.add(payload))
+            case Unreadable():
+                self._leave_out(message.slug, message.reason)
+            case _:
+                if message.sweep == self._sweep:
+                    self._take_of_sweep(message, payload)
+
+    def _leave_out(self, slug: Slug, reason: str) -> None:
+        """A reference that cannot be read."""
+        if slug in self.board.references:
+            path = str(self.listed.sources[slug].path)
+            self._unreadable[slug] = path, reason
+            self._put_up(self.board.without(slug, path, reason))
+
+    def _take_of_sweep(self, message: Swept | Measured | SweepEnded, payload: bytes) -> None:
         match message:
             case SweepEnded():
                 self._left.clear()

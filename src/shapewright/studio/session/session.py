@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 from functools import partial
 from importlib.metadata import version
-from typing import Any
+from typing import Any, Literal, TypeAlias, get_args
 
 from shapewright.judging.paper import Metric, fidelity_metric, light_field_metric
 from shapewright.references.errors import CollectionError
@@ -25,7 +25,6 @@ from shapewright.studio.session.display import Display
 from shapewright.studio.session.history import summaries
 from shapewright.studio.session.job_list import JobList, Refused
 from shapewright.studio.session.pages import Page, Pages
-from shapewright.studio.session.problem_list import ProblemList
 from shapewright.studio.wire import changes
 from shapewright.studio.wire.collection import Mark, Procedure
 from shapewright.studio.wire.problems import Problem
@@ -33,6 +32,31 @@ from shapewright.studio.wire.work import Run
 
 _PATIENCE = 2.0
 """Seconds for which a fit after a save waits until the replicas of the new version are shown."""
+Origin: TypeAlias = Literal["bench", "project", "procedure", "references", "fit", "explain", "export", "shapes"]
+"""Where problems come from, the worst first."""
+
+
+class ProblemList:
+    """The problems of a project; pages are sent every change."""
+
+    def __init__(self, pages: Pages) -> None:
+        self._pages = pages
+        self._problems: dict[Origin, list[Problem]] = {}
+
+    @property
+    def all(self) -> list[Problem]:
+        """The worst first."""
+        return [problem for origin in get_args(Origin) for problem in self._problems.get(origin, [])]
+
+    def note(self, origin: Origin, problems: list[Problem]) -> bool:
+        """Replace the problems of one origin without a message to the pages; returns whether they are others now."""
+        before, self._problems[origin] = self._problems.get(origin, []), problems
+        return before != problems
+
+    def report(self, origin: Origin, problems: list[Problem]) -> None:
+        """Replace the problems of one origin."""
+        if self.note(origin, problems):
+            self._pages.publish(changes.ProblemsChanged(problems=self.all))
 
 
 class Session:
@@ -79,7 +103,7 @@ class Session:
                 references=project.origin.source,
             ),
             dimension=self.display.listed.dimension,
-            bench=self.bench.state,
+            bench=self.bench.process.state,
             procedure=self._procedure(),
             collection=self.display.board.collection(),
             jobs=self.jobs.jobs(),
@@ -192,22 +216,20 @@ class Session:
 
     def _bench_changed(self) -> None:
         self.pages.publish(self.state())
-        if self.bench.state == "ready":
+        if self.bench.process.state == "ready":
             self.bench.list_references(self.preferences.settings)
             self.bench.load(self.preferences.settings)
 
     def _heard(self, message: messages.News, payload: bytes) -> None:
         match message:
-            case messages.Drawn():
-                self.display.drawn(message.slug, payload)
-            case messages.Unreadable():
-                self.display.unreadable(message.slug, message.reason)
-            case messages.Swept() | messages.Measured() | messages.SweepEnded():
+            case messages.Loaded():
+                if message.load == self.authored.load:
+                    self._take_version(message)
+            case messages.Unusable():
+                if message.load in (None, self.authored.load):
+                    self._break(message.problem)
+            case _:
                 self.display.take(message, payload)
-            case messages.Loaded() if message.load == self.authored.load:
-                self._take_version(message)
-            case messages.Unusable() if message.load in (None, self.authored.load):
-                self._break(message.problem)
 
     def _take_version(self, loaded: messages.Loaded) -> None:
         """Show the new version: a run of it where there is one, else the replicas of before, carried over."""

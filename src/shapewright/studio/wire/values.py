@@ -26,9 +26,9 @@ class Message(Struct, frozen=True, kw_only=True, tag_field="type"):
 
 
 def message_of(kind: type[Kind], source: object, **others: Any) -> Kind:
-    """A message of a kind: some fields are given, the others are those of ``source`` that have the same name."""
-    fields = {name: getattr(source, name) for name in kind.__struct_fields__ if name not in others}
-    return kind(**fields, **others)
+    """A message of a kind: some fields are given, others are what ``source`` has under the same name."""
+    found = {name: getattr(source, name) for name in kind.__struct_fields__ if hasattr(source, name)}
+    return kind(**{**found, **others})
 
 
 def encode(message: Any) -> bytes:
