@@ -75,6 +75,8 @@ def in_turn(slugs: Iterable[str], first: Callable[[], list[str]]) -> Iterator[st
         yield slug
 
 
-def shape_bytes(shape: Shape) -> int:
+def shape_bytes(shape: Shape | None) -> int:
     """About what a shape takes in memory, with what is made of it."""
+    if shape is None:
+        return 0
     return 4 * (shape.vertices.nbytes + shape.faces.nbytes) if isinstance(shape, Mesh) else 2**16

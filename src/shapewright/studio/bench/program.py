@@ -93,9 +93,10 @@ class Bench:
         self._settings = Settings(seed=request.seed, align=request.align)
         self._targets = Shelf(_MEMORY, _bytes)
         try:
-            self._gallery = Gallery(listing(request.origin), self._cache)
+            listed = listing(request.origin)
         except CollectionError:  # the server lists the references too, and reports it to the author
-            self._gallery = Gallery(Listing({}, {}), None)
+            listed = Listing({}, {})
+        self._gallery = Gallery(listed, self._cache)
 
     def _draw(self, slugs: list[Slug]) -> Iterator[None]:
         for slug in in_turn([slug for slug in slugs if slug in self._gallery.listed.sources], lambda: self._first):
@@ -125,12 +126,10 @@ class Bench:
     def _target(self, slug: Slug) -> Target | None:
         """None for a reference that is not there or cannot be read."""
         try:
-            return self._targets.get(slug) or self._targets.put(slug, self._new_target(slug))
+            known = self._targets.get(slug)
+            return known or self._targets.put(slug, target_of(self._gallery[slug].shape, self._settings, self._cache))
         except (KeyError, UnreadableError):
             return None
-
-    def _new_target(self, slug: Slug) -> Target:
-        return target_of(self._gallery[slug].shape, self._settings, self._cache)
 
     def _evaluate(self, client: int, request: Evaluate) -> None:
         """Answer in steps; the later ones are left out when something newer waits."""

@@ -71,14 +71,9 @@ def mesh_message(mesh: Mesh, **head: Any) -> bytes:
 
     head: other fields.
     """
-    buffers: dict[str, Any] = {
-        "positions": mesh.vertices.astype(np.float32).ravel(),
-        "indices": mesh.faces.astype(np.uint32).ravel(),
-    }
-    if mesh.face_labels is not None:
-        buffers["labels"] = mesh.face_labels.astype(np.int32)
-    head |= {"vertices": len(mesh.vertices), "triangles": len(mesh.faces)}
-    return binary(MeshHead(**head, label_names=list(mesh.label_names)), buffers)
+    labels = {} if mesh.face_labels is None else {"labels": mesh.face_labels.astype(np.int32)}
+    head |= {"vertices": len(mesh.vertices), "triangles": len(mesh.faces), "label_names": list(mesh.label_names)}
+    return binary(MeshHead(**head), _triangles(mesh) | labels)
 
 
 def residual_message(residual: Residual, **head: Any) -> bytes:
@@ -87,10 +82,10 @@ def residual_message(residual: Residual, **head: Any) -> bytes:
     head: other fields.
     """
     head |= {"vertices": len(residual.vertices), "triangles": len(residual.faces)}
-    buffers = {
-        "positions": residual.vertices.astype(np.float32).ravel(),
-        "indices": residual.faces.astype(np.uint32).ravel(),
-        "colours": residual.colours.astype(np.float32).ravel(),
-        "distances": residual.distances.astype(np.float32),
-    }
+    colours, distances = residual.colours.astype(np.float32).ravel(), residual.distances.astype(np.float32)
+    buffers = {**_triangles(residual), "colours": colours, "distances": distances}
     return binary(ResidualsHead(**head, signed=residual.signed, limit=LIMIT), buffers)
+
+
+def _triangles(of: Mesh | Residual) -> dict[str, Any]:
+    return {"positions": of.vertices.astype(np.float32).ravel(), "indices": of.faces.astype(np.uint32).ravel()}

@@ -39,7 +39,7 @@ class Sweep:
 
         Raises Broken when the procedure has become unusable.
         """
-        shelf: Shelf[Built] = Shelf(_MEMORY, _bytes)
+        shelf: Shelf[Built] = Shelf(_MEMORY, lambda built: shape_bytes(built.build.shape))
         late = 0
         for slug in in_turn(self.items, self.first):
             built = self.workshop.build(self.items[slug])
@@ -75,7 +75,3 @@ class Sweep:
             problem=of_failure(made.failure, self.root, made.parameters) if made.failure else None,
         )
         self.send(message, thumbnail(made.shape, PICTURE) if made.shape is not None else b"")
-
-
-def _bytes(built: Built) -> int:
-    return shape_bytes(built.build.shape) if built.build.shape is not None else 0

@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import mimetypes
 from collections.abc import AsyncIterator, Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -65,24 +66,21 @@ def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
             raise Missing("there is no such file")
         return FileResponse(file, headers=api.KEEP)
 
-    async def live(socket: WebSocket) -> None:
-        await _converse(session, socket)
-
     pages = [
         Route("/", index),
         Route("/assets/{path:path}", asset),
-        WebSocketRoute("/api/live", live),
+        WebSocketRoute("/api/live", partial(_converse, session)),
         *api.routes(session),
     ]
     failures: dict[Any, Any] = {
         requests.Wrong: _failure(422),
-        Conflict: lambda _, error: _json(409, error=str(error), text=error.text, digest=error.digest),
+        Conflict: _failure(409, "text", "digest"),
         Refused: _failure(409),
         ProjectError: _failure(409),
         RunError: _failure(404),
         Missing: _failure(404),
         BenchError: _failure(503),
-        HTTPException: lambda _, error: _json(error.status_code, error=error.detail),
+        HTTPException: lambda _, error: api.json_response({"error": error.detail}, error.status_code),
         ClientDisconnect: _failure(400),
     }
     guard = Middleware(Guard, access=access)
@@ -122,9 +120,10 @@ def _hear(session: Session, page: Page, text: str) -> None:
         session.pages.send(page.number, WrongMessage(error=str(error)))
 
 
-def _failure(status: int) -> Callable[[Request, Exception], Response]:
-    return lambda _, error: _json(status, error=str(error))
+def _failure(status: int, *fields: str) -> Callable[[Request, Exception], Response]:
+    """What becomes of an error: its message, and the fields of it that are named."""
 
+    def answer(request: Request, error: Exception) -> Response:
+        return api.json_response({"error": str(error), **{name: getattr(error, name) for name in fields}}, status)
 
-def _json(status: int, **content: Any) -> Response:
-    return api.json_response(content, status)
+    return answer

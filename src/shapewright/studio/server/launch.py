@@ -50,7 +50,13 @@ def serve(
         ws_max_size=MOST_BYTES,
         timeout_graceful_shutdown=2,
     )
-    server = _Announcing(config, lambda: _announce(access.address, started, browser))
+
+    def announce() -> None:
+        started(access.address)
+        if browser:
+            threading.Thread(target=webbrowser.open, args=(access.address,), daemon=True).start()
+
+    server = _Announcing(config, announce)
     with contextlib.suppress(KeyboardInterrupt):
         server.run(sockets=[listening])
 
@@ -65,12 +71,6 @@ class _Announcing(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         self._announce()
-
-
-def _announce(address: str, started: Callable[[str], object], browser: bool) -> None:
-    started(address)
-    if browser:
-        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
 
 def _listen(host: str, port: int | None) -> socket.socket:

@@ -86,14 +86,8 @@ class Display:
         """The board that ``show`` puts up, without putting it up. Raises RunError."""
         runs = self.project.runs
         before = runs[runs.index(run) - 1] if run in runs[1:] else None
-        board = lay_out(
-            self.listed,
-            self.pictures,
-            {slug: self._kept(slug) for slug in self.listed.sources},
-            run,
-            before,
-            metric,
-        )
+        kept = {slug: self._kept(slug) for slug in self.listed.sources}
+        board = lay_out(self.listed, self.pictures, kept, run, before, metric)
         for slug, (path, reason) in self._unreadable.items():
             board = board.without(slug, path, reason)
         return board
@@ -136,24 +130,15 @@ class Display:
 
     def take(self, message: Drawn | Unreadable | Swept | Measured | SweepEnded, payload: bytes) -> None:
         """Apply what the bench says of references and replicas."""
+        if isinstance(message, Swept | Measured | SweepEnded) and message.sweep != self._sweep:
+            return
         match message:
             case Drawn():
                 self._change(message.slug, reference=self.pictures.add(payload))
-            case Unreadable():
-                self._leave_out(message.slug, message.reason)
-            case _:
-                if message.sweep == self._sweep:
-                    self._take_of_sweep(message, payload)
-
-    def _leave_out(self, slug: Slug, reason: str) -> None:
-        """A reference that cannot be read."""
-        if slug in self.board.references:
-            path = str(self.listed.sources[slug].path)
-            self._unreadable[slug] = path, reason
-            self._put_up(self.board.without(slug, path, reason))
-
-    def _take_of_sweep(self, message: Swept | Measured | SweepEnded, payload: bytes) -> None:
-        match message:
+            case Unreadable() if message.slug in self.board.references:
+                path = str(self.listed.sources[message.slug].path)
+                self._unreadable[message.slug] = path, message.reason
+                self._put_up(self.board.without(message.slug, path, message.reason))
             case SweepEnded():
                 self._left.clear()
             case Measured():

@@ -15,7 +15,7 @@ from shapewright.runs.changes import Move as RunMove
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import EXPLANATION, RECORD, RunError, read_record
 from shapewright.studio.session.board import tint
-from shapewright.studio.wire.values import Slug
+from shapewright.studio.wire.values import Slug, message_of
 from shapewright.studio.wire.work import Comparison, DiffLine, Move, Run
 
 Address = Callable[[Path], str | None]
@@ -77,11 +77,10 @@ def comparison(
 
     def pictured(moves: Iterable[RunMove]) -> list[Move]:
         return [
-            Move(
-                name=move.name,
+            message_of(
+                Move,
+                move,
                 slug=slugs.get(move.name),
-                before=move.before,
-                after=move.after,
                 colour_before=tint(move.before, Metric.of_record(old)),
                 colour_after=tint(move.after, Metric.of_record(new)),
                 reference=picture(after, nows[move.name], "reference"),
@@ -106,8 +105,8 @@ def comparison(
 def difference(before: str, after: str) -> Iterator[DiffLine]:
     """Two texts line by line: what both have, what was removed, what was added; with the numbers of the lines."""
     old, new = before.splitlines(), after.splitlines()
-    for _, i, i_end, j, j_end in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
-        if old[i:i_end] == new[j:j_end]:
+    for change, i, i_end, j, j_end in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
+        if change == "equal":
             for k in range(i_end - i):
                 yield DiffLine(kind="same", before=i + k + 1, after=j + k + 1, text=old[i + k])
             continue
