@@ -20,12 +20,10 @@ from shapewright.building.worker import build, limit_memory
 from shapewright.parameters import Parameters, to_record
 from shapewright.procedures import Procedure, ProcedureError, describe, load_procedure, place_of
 from shapewright.shapes import Mesh
-from shapewright.studio.bench.built import Built, Version
+from shapewright.studio.bench.workshop import LOADING_SECONDS, Built, Version
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.collection import Parameter
 
-LOADING_SECONDS = 20.0
-"""What reading the author's file may take, its imports included."""
 MOST_TRIANGLES = 400_000
 """More than a page can turn smoothly."""
 

@@ -9,8 +9,8 @@ import shapely
 
 from shapewright.references.collection import Reference
 from shapewright.shapes import Drawing, Mesh
-from shapewright.studio.bench.built import Built
 from shapewright.studio.bench.residual_colours import LIMIT, Residual
+from shapewright.studio.bench.workshop import Built
 from shapewright.studio.wire.answers import DrawingMessage, Extent, MeshHead, ResidualsHead, binary
 from shapewright.studio.wire.detail import About, Units
 

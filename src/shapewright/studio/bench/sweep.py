@@ -8,10 +8,9 @@ from pathlib import Path
 
 from shapewright.judging.target import Target
 from shapewright.rendering.thumbnails import thumbnail
-from shapewright.studio.bench.built import Built
 from shapewright.studio.bench.gallery import Shelf, in_turn, shape_bytes
 from shapewright.studio.bench.messages import Measured, News, SweepEnded, Swept
-from shapewright.studio.bench.workshop import Workshop
+from shapewright.studio.bench.workshop import Built, Workshop
 from shapewright.studio.wire.problems import of_failure
 from shapewright.studio.wire.values import Slug, Values
 

@@ -7,6 +7,7 @@ import queue
 import sys
 import threading
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,16 +15,35 @@ from shapewright.building.outcomes import Build, Failure, Limits
 from shapewright.building.process import SINGLE_THREADED, crash, no_answer, too_long
 from shapewright.parameters import Parameters, Value
 from shapewright.procedures import ProcedureError
-from shapewright.studio.bench.builder import LOADING_SECONDS
-from shapewright.studio.bench.built import Built, Version
 from shapewright.studio.wire.child import Child, Frame
+from shapewright.studio.wire.collection import Parameter
 from shapewright.studio.wire.problems import Problem, of_error, syntax_problem
 
+LOADING_SECONDS = 20.0
+"""What reading the author's file may take, its imports included."""
 _PROGRAM = "shapewright.studio.bench.builder"
 _START_SECONDS = 60.0
 """Until the process runs, on a machine with much else to do."""
 _PATIENCE = LOADING_SECONDS + 5.0
 _STEP = 0.1
+
+
+@dataclass(frozen=True)
+class Version:
+    """A procedure that was read."""
+
+    name: str
+    parameters: list[Parameter]  # as the page gets them
+    defaults: Parameters
+
+
+@dataclass(frozen=True)
+class Built:
+    """A shape that was built, or could not be."""
+
+    build: Build
+    active: tuple[str, ...] = ()  # names of the parameters that matter there
+    at_limit: tuple[str, ...] = ()  # names of those at an end of their Range
 
 
 class Broken(Exception):
@@ -73,7 +93,10 @@ class Workshop:
                 self._start(self._path, self._limits)
             except ProcedureError as error:
                 raise Broken(of_error(error, "load", self._path.parent)) from error
-        answer = self._exchange(dict(values))
+        assert self._child is not None
+        self._child.send("build", pickle.dumps(dict(values)))
+        patience = 1.25 * self._limits.seconds + 0.5
+        answer = self._wait(patience, patience) or too_long(self._limits)
         if isinstance(answer, Built):
             return answer
         self._stop()
@@ -94,13 +117,6 @@ class Workshop:
             self._stop()
             raise version.error()
         return version
-
-    def _exchange(self, values: Parameters) -> Built | Failure:
-        """What the builder answers, or the failure that ended it; an interrupt ends it too."""
-        assert self._child is not None
-        self._child.send("build", pickle.dumps(values))
-        patience = 1.25 * self._limits.seconds + 0.5
-        return self._wait(patience, patience) or too_long(self._limits)
 
     def _wait(self, patience: float, again: float) -> Any:
         """The builder's next answer, or how it ended; None when it takes too long, or when interrupted.

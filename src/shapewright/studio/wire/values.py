@@ -27,8 +27,8 @@ class Message(Struct, frozen=True, kw_only=True, tag_field="type"):
 
 def message_of(kind: type[Kind], source: object, **others: Any) -> Kind:
     """A message of a kind: some fields are given, others are what ``source`` has under the same name."""
-    found = {name: getattr(source, name) for name in kind.__struct_fields__ if hasattr(source, name)}
-    return kind(**{**found, **others})
+    shared = {name: getattr(source, name) for name in kind.__struct_fields__ if hasattr(source, name)}
+    return kind(**{**shared, **others})
 
 
 def encode(message: Any) -> bytes:
