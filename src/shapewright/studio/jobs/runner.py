@@ -5,51 +5,47 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from msgspec.structs import replace
 
 from shapewright.studio.jobs.events import Advanced, AnyEvent, Done, Failed, Guessed
 from shapewright.studio.wire.child import Child, Frame, on_this_loop
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.values import message_of
-from shapewright.studio.wire.work import Answer, Epoch, Job, JobKind, JobResult, JobStage, JobState
+from shapewright.studio.wire.work import Job, JobKind, JobStage
 
 
 @dataclass(eq=False)
 class Runner:
-    """One kind of work, of which at most one runs at a time; see ``wire.work.Job`` for the other fields."""
+    """One kind of work, of which at most one runs at a time."""
 
     kind: JobKind
     root: Path  # folder that problems name files relative to
     changed: Callable[[Runner], object]  # called after every change
     guessed: Callable[[Guessed], object]  # called with parameters that are known before the end of a fit
-    state: JobState = "idle"
-    stages: list[JobStage] = field(default_factory=list)
-    curve: list[Epoch] = field(default_factory=list)
-    answer: Answer | None = None
-    problem: Problem | None = None
-    result: JobResult | None = None
     _started: float = 0.0
-    _seconds: float = 0.0
     _stage_started: float = 0.0
     _child: Child | None = None
     _task: asyncio.Task[None] | None = None
 
+    def __post_init__(self) -> None:
+        self._job = Job(kind=self.kind)
+
     @property
     def running(self) -> bool:
-        return self.state in ("running", "cancelling")
+        return self._job.state in ("running", "cancelling")
 
     def job(self) -> Job:
         """As the page gets it."""
-        seconds = time.monotonic() - self._started if self.running else self._seconds
-        return message_of(Job, self, seconds=round(seconds, 2))
+        seconds = time.monotonic() - self._started if self.running else self._job.seconds
+        return replace(self._job, seconds=round(seconds, 2))
 
     def start(self, module: str, request: dict[str, Any]) -> None:
         """Run a program with a request; nothing else of this kind may be running."""
         assert not self.running
-        self.state, self.stages, self.curve = "running", [], []
-        self.answer = self.problem = self.result = None
+        self._job = Job(kind=self.kind, state="running")
         self._started = time.monotonic()
         self._task = asyncio.create_task(self._run(module, request))
         self.changed(self)
@@ -58,7 +54,7 @@ class Runner:
         """End what runs, if anything does, and wait until it has ended."""
         if not self.running or self._task is None:
             return
-        self.state = "cancelling"
+        self._job.state = "cancelling"
         self.changed(self)
         if self._child:
             await asyncio.to_thread(self._child.end)
@@ -70,14 +66,14 @@ class Runner:
             frames: asyncio.Queue[Frame | None] = asyncio.Queue()
             # Requests stay open: when they close, the program knows that the studio has ended.
             self._child = child = Child(module, on_this_loop(frames.put_nowait), AnyEvent)
-            if self.state == "cancelling":
+            if self._job.state == "cancelling":
                 child.end()
             child.send({**request, "root": str(self.root)})
             while frame := await frames.get():
                 event = frame[0]
                 if isinstance(event, Failed):
                     failed = event.problem
-                elif self.state == "running":
+                elif self._job.state == "running":
                     self._take(event)
             status = await asyncio.to_thread(child.process.wait)
             await asyncio.to_thread(child.end)  # its own workers, where they still run
@@ -87,11 +83,11 @@ class Runner:
             failed = Problem(self.kind, f"it could not be started: {error}")
         finally:
             self._child = None
-            self._seconds = time.monotonic() - self._started
-        if self.state == "cancelling":
-            self.state = "cancelled"
+            self._job.seconds = time.monotonic() - self._started
+        if self._job.state == "cancelling":
+            self._job.state = "cancelled"
         else:
-            self.state, self.problem = "failed" if failed else "done", failed
+            self._job.state, self._job.problem = "failed" if failed else "done", failed
         self._end_stage(time.monotonic())
         self.changed(self)
 
@@ -100,24 +96,24 @@ class Runner:
             case Advanced():
                 self._advance(event)
             case Guessed():
-                self.answer = event.kind
+                self._job.answer = event.kind
                 self.guessed(event)
             case Done():
-                self.result = event.result
+                self._job.result = event.result
         self.changed(self)
 
     def _advance(self, event: Advanced) -> None:
         now = time.monotonic()
-        if not self.stages or self.stages[-1].name != event.stage:
+        if not self._job.stages or self._job.stages[-1].name != event.stage:
             self._end_stage(now)
-            self.stages.append(JobStage(name=event.stage, done=0, total=0, remark="", seconds=0.0))
+            self._job.stages.append(JobStage(name=event.stage, done=0, total=0, remark="", seconds=0.0))
             self._stage_started = now
-        stage = self.stages[-1]
+        stage = self._job.stages[-1]
         stage.done, stage.total, stage.remark = event.done, event.total, event.remark
         stage.seconds = round(now - self._stage_started, 2)
         if event.losses:
-            self.curve.append(event.losses)
+            self._job.curve.append(event.losses)
 
     def _end_stage(self, now: float) -> None:
-        if self.stages:
-            self.stages[-1].seconds = round(now - self._stage_started, 2)
+        if self._job.stages:
+            self._job.stages[-1].seconds = round(now - self._stage_started, 2)

@@ -34,7 +34,7 @@ class JobList:
     """One runner for each kind of job."""
 
     def __init__(
-        self, project: Project, display: Display, bench: BenchLink, pages: Pages, ended: Callable[[Runner], object]
+        self, project: Project, display: Display, bench: BenchLink, pages: Pages, ended: Callable[[Job], object]
     ) -> None:
         """Prepare all runners.
 
@@ -102,9 +102,10 @@ class JobList:
         self._runners[kind].start(_PROGRAM.format(kind), request)
 
     def _changed(self, runner: Runner) -> None:
-        self._pages.publish(JobChanged(job=runner.job()))
+        job = runner.job()
+        self._pages.publish(JobChanged(job=job))
         if not runner.running:
-            self._ended(runner)
+            self._ended(job)
 
     def _guessed(self, event: Guessed) -> None:
         if event.kind in _STAGES:

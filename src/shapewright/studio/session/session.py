@@ -15,7 +15,6 @@ from shapewright.runs.marks import pairs, replace_pairs
 from shapewright.storage import cache_folder
 from shapewright.studio.bench import messages
 from shapewright.studio.bench.client import BenchError
-from shapewright.studio.jobs.runner import Runner
 from shapewright.studio.project.authored import Authored
 from shapewright.studio.project.preferences import Preferences
 from shapewright.studio.project.watch import watch
@@ -28,7 +27,7 @@ from shapewright.studio.session.pages import Page, Pages
 from shapewright.studio.wire import changes
 from shapewright.studio.wire.collection import Mark, Procedure
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.work import Run
+from shapewright.studio.wire.work import Job, Run
 
 _PATIENCE = 2.0
 """Seconds for which a fit after a save waits until the replicas of the new version are shown."""
@@ -256,7 +255,7 @@ class Session:
 
     # What jobs do
 
-    def _job_ended(self, job: Runner) -> None:
+    def _job_ended(self, job: Job) -> None:
         self.problems.report(job.kind, [job.problem] if job.problem else [])
         if job.kind == "fit" and job.state == "done":
             self.display.show(self.display.newest(), self.metric)

@@ -45,17 +45,17 @@ class JobResult(Struct, frozen=True, kw_only=True):
     bytes: int | UnsetType = UNSET  # size of that file
 
 
-class Job(Struct, frozen=True, kw_only=True):
+class Job(Struct, kw_only=True):
     """One kind of work, of which at most one runs."""
 
     kind: JobKind
-    state: JobState
-    stages: list[JobStage]  # in order; the last one is running. A stage may come again.
-    curve: list[Epoch]  # of a fit
-    answer: Answer | None  # of a fit: the newest early answer
-    seconds: float
-    problem: Problem | None
-    result: JobResult | None
+    state: JobState = "idle"
+    stages: list[JobStage] = []  # in order; the last one is running. A stage may come again.
+    curve: list[Epoch] = []  # of a fit
+    answer: Answer | None = None  # of a fit: the newest early answer
+    seconds: float = 0.0
+    problem: Problem | None = None
+    result: JobResult | None = None
 
 
 class Run(Struct, frozen=True, kw_only=True):
