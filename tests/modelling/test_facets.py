@@ -5,7 +5,7 @@ import pytest
 
 from shapewright import Mesh
 from shapewright.modelling import verbs
-from shapewright.modelling.deformation import Domain
+from shapewright.modelling.deformation import Domain, Turn
 from shapewright.modelling.facets import Surface, deformed
 from shapewright.modelling.solids import sphere
 
@@ -80,7 +80,7 @@ def test_cuts_are_made_where_the_deformation_curves_only():
     sideways = verbs.path(domain, (0, 0, 0), (0, 0.3, 0), (0, 0, 0), axis="x")
     both = deformed(CUBE, [verbs.twist(domain, 90, "x"), sideways], 1e-2)
     assert mesh(both)[0].soundness().sound
-    turned = deformed(CUBE, [verbs.turn(domain, 30, "z", (0.5, 0.5, 0.5))], 1e-4)
+    turned = deformed(CUBE, [Turn(2, 30.0, (0.5, 0.5, 0.5))], 1e-4)
     assert len(turned.owners) == 6
 
 

@@ -1,7 +1,7 @@
 """The verbs that deform: each is declared once, as a function of what it deforms, and is a method of solids and boxes.
 
 Of a Domain a verb gives the deformation itself. What solids and boxes say in terms of their own (bulge, rotate, deform)
-are methods of each, made by the functions of a Domain here.
+are methods of each.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from shapewright.modelling import arguments
 from shapewright.modelling.arguments import Direction, Point, Vector
 from shapewright.modelling.curves import TOLERANCE, bernstein
-from shapewright.modelling.deformation import Bend, Bulge, Deformation, Domain, Scale, Shift, Turn, Twist
+from shapewright.modelling.deformation import Bend, Bulge, Deformation, Domain, Scale, Shift, Twist
 
 R_co = TypeVar("R_co", covariant=True)
 
@@ -126,14 +126,3 @@ def bulge(
     low, high = part or (domain.low, domain.high)
     u, v = along.across
     return Bulge(along, rise, (low[u], low[v]), (high[u], high[v]), round)
-
-
-def turn(domain: Domain, degrees: float, axis: str, about: Point) -> Deformation:
-    """See Box.rotate. about: a place in the box, 0 to 1 along each axis."""
-    index, sign = domain.towards("rotate", axis)
-    turned = arguments.number("rotate", "degrees", degrees) * sign * domain.handed
-    place = [
-        low + (high - low) * (share if facing > 0 else 1.0 - share)
-        for low, high, facing, share in zip(domain.low, domain.high, domain.facing, about, strict=True)
-    ]
-    return Turn(index, turned, arguments.point(place))

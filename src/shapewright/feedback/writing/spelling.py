@@ -39,11 +39,9 @@ class Quantity:
 
     def parameter(self, low: float, high: float, default: float, when: str | None) -> NewParameter:
         condition = f", when=lambda p: p.{when}" if when else ""
-        if self.whole:
-            limits = f"{round(low)}, {round(high)}"
-            return NewParameter(self.name, f"Annotated[int, Range({limits}{condition})]", f"{round(default)}")
-        limits = f"{number(low)}, {number(high)}"
-        return NewParameter(self.name, f"Annotated[float, Range({limits}{condition})]", number(default))
+        kind, spell = ("int", lambda value: f"{round(value)}") if self.whole else ("float", number)
+        annotation = f"Annotated[{kind}, Range({spell(low)}, {spell(high)}{condition})]"
+        return NewParameter(self.name, annotation, spell(default))
 
 
 def number(value: float) -> str:

@@ -65,8 +65,7 @@ def _join(leaves: Sequence[Node], depth: int, tolerance: float) -> tuple[Solid |
     voids = _solids([leaf for leaf in here if leaf.box.is_void], tolerance)
     for members in inner.values():
         group = members[0].box.groups[depth]
-        bent = _bent(members, depth, tolerance)
-        if bent:
+        if bent := _bent(members, depth, tolerance):
             solids.append(bent)
             continue
         solid, void = _join(members, depth + 1, tolerance)
@@ -109,8 +108,7 @@ def _solids(leaves: Sequence[Node], tolerance: float) -> list[Solid]:
 
 def _united(leaves: Sequence[Node]) -> Mesh | None:
     """The union of plain boxes, if it can be stitched without booleans."""
-    owners, _ = _numbered([leaf.label for leaf in leaves])
-    united = unite(*_ends(leaves), owners)
+    united = unite(*_ends(leaves), _numbered([leaf.label for leaf in leaves])[0])
     return _of_leaves(leaves, *united) if united else None
 
 
@@ -123,8 +121,8 @@ def _of_leaves(leaves: Sequence[Node], points: Floats, faces: Ints, boxes: Ints)
 
 def _numbered(names: Sequence[str]) -> tuple[Ints, tuple[str, ...]]:
     """Indices (N,) into different names, and these."""
-    different = tuple(dict.fromkeys(names))
-    return np.array([different.index(name) for name in names]), different
+    different = {name: i for i, name in enumerate(dict.fromkeys(names))}
+    return np.array([different[name] for name in names]), tuple(different)
 
 
 def _made_by(leaf: Node, points: Floats, faces: Ints, owners: Ints, names: tuple[str, ...]) -> Mesh:

@@ -215,8 +215,14 @@ class Box(Fields):
 
     def rotate(self, degrees: float, axis: Direction = "y", about: Vector = (0.5, 0.5, 0.5)) -> Box:
         """Turned about an axis through a place in the box: 0 to 1 along each axis, from left, bottom and back."""
-        place = arguments.vector("rotate", "about", about)
-        return self._deformed(verbs.turn(self._domain, degrees, axis, place))
+        shares = arguments.vector("rotate", "about", about)
+        index, sign = self._domain.towards("rotate", axis)
+        turned = arguments.number("rotate", "degrees", degrees) * sign * self._domain.handed
+        place = [
+            low + (high - low) * (share if facing > 0 else 1.0 - share)
+            for low, high, facing, share in zip(self.low, self.high, self.facing, shares, strict=True)
+        ]
+        return self._deformed(deformation.Turn(index, turned, point(place)))
 
     def deform(self, function: Callable[[Floats], Floats]) -> Box:
         """Every point moved by a function of points (N, 3), relative to the middle of the box, as the box faces."""

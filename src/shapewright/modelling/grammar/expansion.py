@@ -10,8 +10,7 @@ from typing import Any
 from shapewright.modelling.grammar.boxes import Box
 from shapewright.modelling.grammar.forms import Group
 
-DEPTH, BOXES = 64, 20_000
-"""Rules in a row and boxes of one derivation, from which on a recursion counts as endless."""
+DEPTH, BOXES = 64, 20_000  # rules in a row and boxes of one derivation, from which on a recursion counts as endless
 
 
 class GrammarError(ValueError):
@@ -108,8 +107,7 @@ class Expansion:
         )
 
     def _apply(self, rule: Rule, box: Box) -> list[Box]:
-        missing = [name for name in rule.needs if name not in self.parameters]
-        if missing:
+        if missing := [name for name in rule.needs if name not in self.parameters]:
             raise GrammarError(f"{_at(rule, box)}: it asks for {', '.join(missing)}, which derive() was not given")
         arguments = {name: self.parameters[name] for name in rule.takes if name in self.parameters}
         inner = box.within()
