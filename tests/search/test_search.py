@@ -11,7 +11,7 @@ from shapewright.comparison.light_field.aligned import AlignedCost
 from shapewright.modelling.solids import box, cylinder
 from shapewright.parameters import Prediction
 from shapewright.search.budgets import QUICK, THOROUGH, Budget
-from shapewright.search.combinations import others
+from shapewright.search.candidates import others
 from shapewright.search.moves import Probe, Return, Scan, Step, SwitchChoices, UseScale
 from shapewright.search.objective import Criterion
 from shapewright.search.search import SearchStart, refine

@@ -6,12 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+import numpy as np
+
 from shapewright.building import Workers
-from shapewright.feedback.case import Case
+from shapewright.feedback.case import Case, Replica
 from shapewright.feedback.causes.causes import causes
 from shapewright.feedback.causes.shared import SharedCause, shared_causes
-from shapewright.feedback.differences import differences
 from shapewright.feedback.suggestions import Suggestion, suggestions
+from shapewright.feedback.surfaces.residuals import residuals
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.judging.judge import Judge
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
@@ -19,6 +22,7 @@ from shapewright.references import Collection
 from shapewright.runs.inputs import references_of
 from shapewright.runs.iteration import Iteration
 from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +70,7 @@ def explain(
         stages.begin("describe", len(collection))
         judge = Judge.of(collection, settings, cache)
         stages.begin("differences", 3)
-        cases = differences(iteration, crew, judge)
+        cases = _cases(iteration, crew, judge)
         stages.begin("causes", 4)
         cases = causes(cases, iteration.predictor, crew, judge, stages)
         unsolved = [case for case in cases if case.nearest.distance > settings.threshold]
@@ -81,3 +85,26 @@ def _collection(references: Collection, iteration: Iteration) -> Collection:
     turned = iteration.metrics.get("turned", {})
     collection = Collection(tuple(references[name] for name in iteration.names), source=references.source)
     return collection.turned([turned.get(name, 0) // 90 for name in collection.names]) if turned else collection
+
+
+def _cases(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]:
+    """A case for each reference whose replica can be built and measured.
+
+    Replicas are built again: the files of a run keep them in single precision.
+    """
+    results, names = iteration.results, crew.procedure.space.names
+    known = {row: r.parameters for row, r in enumerate(results) if r.replica is not None and r.parameters}
+    builds = crew.build([{name: values[name] for name in names} for values in known.values()], give_up=True)
+    replicas = [
+        Replica(row, build.parameters, build.shape, results[row].distance)
+        for row, build in zip(known, builds, strict=True)
+        if isinstance(build.shape, Mesh) and np.isfinite(results[row].distance)
+    ]
+
+    def case(replica: Replica) -> Case:
+        result, reference = results[replica.row], judge.references.references[replica.row].shape
+        assert isinstance(reference, Mesh)
+        where = residuals(VisibleSurface.of(reference), replica.mesh)
+        return Case.of(result.name, reference, result.compatible, replica, where)
+
+    return in_threads(case, replicas, judge.settings.workers)

@@ -6,17 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from shapewright.search.moves import (
-    BuildingMove,
-    Move,
-    Probe,
-    Return,
-    Scan,
-    Step,
-    SwitchChoices,
-    UseScale,
-    evaluations,
-)
+from shapewright.search.moves import BuildingMove, Move, Probe, Return, Scan, Step, SwitchChoices, UseScale, evaluations
 
 SPREAD = 0.1
 """Of the first random points, encoded. By trial on tables."""
@@ -65,13 +55,7 @@ def _exactly(size: float, times: int = 1) -> tuple[Move, ...]:
 # Eight combinations are built, three get a model, two follow theirs. The best one is then followed exactly, and
 # explored further for references that are incompatible by less than 40 %: where a longer search decides anything.
 # Chosen on the 133 furniture and cuboid tables of docs/benchmarks.md, "The search itself".
-QUICK = Budget(
-    (
-        *(Scan(8), Probe(3), Step(2, scatter=2)),
-        *_exactly(0.05),
-        *(Step(1, scatter=4, near=1.4),) * 8,
-    )
-)
+QUICK = Budget((*(Scan(8), Probe(3), Step(2, scatter=2)), *_exactly(0.05), *(Step(1, scatter=4, near=1.4),) * 8))
 
 # Other choices with the scalars found by then. Late, the right choice is better at once; where it is not, its rivals
 # are followed only while they cost little more.

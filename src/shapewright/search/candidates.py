@@ -1,4 +1,4 @@
-"""One combination of choices in a search: the points that moves try for it, and what it learns from them."""
+"""Combinations of choices in a search: those beside a given one, the points that moves try, what is learned of them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.random import Generator
 
 from shapewright.parameters import ParameterSpace, Scalar
 from shapewright.search.budgets import SPREAD
@@ -78,29 +79,37 @@ class Candidate:
                 learn_slope(self.slopes, vector - self.vector, changed - residual)
 
 
-@dataclass(frozen=True, eq=False)
-class Bounds:
-    """The least and the greatest scalars of one reference, encoded, (P,) each."""
+def others(space: ParameterSpace, vector: Floats, choices: Sequence[Floats] = ()) -> list[Floats]:
+    """The encoded vectors with a single other choice that matters there, then those with some given choices.
 
-    low: Floats
-    high: Floats
+    All have the scalars of the one vector, and each means another shape.
+    """
+    active = set(space.active(space.decode(vector)))
+    beside = []
+    for column, parameter in enumerate(space):
+        for k in range(parameter.classes if parameter.name in active else 0):
+            if k != vector[column]:
+                beside.append(vector.copy())
+                beside[-1][column] = k
+    beside += [np.where(space.scalars, vector, chosen) for chosen in choices]
+    return space.distinct([vector, *beside])[1:]
+
+
+Bounds = tuple[Floats, Floats]
+"""The least and the greatest scalars of one reference, encoded, (P,) each."""
 
 
 def points(
-    candidate: Candidate,
-    move: BuildingMove,
-    space: ParameterSpace,
-    bounds: Bounds,
-    part: slice,
-    rng: np.random.Generator,
+    candidate: Candidate, move: BuildingMove, space: ParameterSpace, bounds: Bounds, part: slice, rng: Generator
 ) -> Iterator[Floats]:
     """Encoded vectors inside the bounds that a move tries for a combination, see ``moves``."""
     if candidate.residual is None:
         yield candidate.vector
         return
+    least, most = bounds
     active = set(space.active(space.decode(candidate.vector)))
     free = np.array([isinstance(parameter, Scalar) and parameter.name in active for parameter in space])
-    free &= bounds.high > bounds.low
+    free &= most > least
     if not free.any():
         return
     if candidate.slopes is None:
@@ -110,20 +119,21 @@ def points(
     slopes, residual = np.ascontiguousarray(candidate.slopes[free, part]), candidate.residual[part]
     for k in range(step.steps):
         reach = candidate.reach * _SHORTER**k
-        low = np.clip(bounds.low - candidate.vector, -reach, 0.0)[free]
-        high = np.clip(bounds.high - candidate.vector, 0.0, reach)[free]
+        low = np.clip(least - candidate.vector, -reach, 0.0)[free]
+        high = np.clip(most - candidate.vector, 0.0, reach)[free]
         vector = candidate.vector.copy()
         vector[free] += bounded_step(slopes, residual, low, high, _FLOORS[k % len(_FLOORS)])
         yield vector
     for _ in range(step.scatter):
         away = rng.standard_normal(len(free)) * candidate.spread
-        yield np.where(free, np.clip(candidate.vector + away, bounds.low, bounds.high), candidate.vector)
+        yield np.where(free, np.clip(candidate.vector + away, least, most), candidate.vector)
 
 
 def _probed(centre: Floats, free: np.ndarray, bounds: Bounds, probe: Probe) -> Iterator[Floats]:
     """One vector for each free scalar, to the side where there is room, or one to each side."""
+    least, most = bounds
     for p in np.flatnonzero(free):
-        above, below = bounds.high[p] - centre[p], centre[p] - bounds.low[p]
+        above, below = most[p] - centre[p], centre[p] - least[p]
         one = probe.size if probe.size <= above else -probe.size
         for side in (min(probe.size, above), -min(probe.size, below)) if probe.both else (one,):
             vector = centre.copy()

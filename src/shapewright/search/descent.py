@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from shapewright.shapes import Floats
 
 _REWEIGHTINGS, _SWEEPS = 6, 12
 """Of the residuals for each step, and of the parameters for each quadratic: a step's cost is within 2 % of the least

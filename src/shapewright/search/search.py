@@ -13,13 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shapewright.building import Build, Workers
+from shapewright.building import Workers
 from shapewright.parameters import Parameters, Prediction
 from shapewright.search.budgets import QUICK, Budget
-from shapewright.search.candidates import Bounds, Candidate, points
-from shapewright.search.combinations import others, plain
+from shapewright.search.candidates import Bounds, Candidate, others, points
 from shapewright.search.moves import BuildingMove, Probe, Return, Scan, Step, SwitchChoices
-from shapewright.search.objective import Criterion, Measure
+from shapewright.search.objective import Criterion
 from shapewright.shapes import Floats
 
 _MOVED = 0.98
@@ -116,8 +115,10 @@ def _begun(start: SearchStart, criterion: Criterion, budget: Budget, seed: int, 
         known.known = True
         apart = [other for other in candidates if np.abs(other.vector - known.vector).max() > _SAME]
         candidates = [*apart[: max(1, most - 1)], known]
-    low, high = (limit[row] for limit in start.within) if start.within else (np.zeros(len(space)), np.ones(len(space)))
-    return _Search(row, candidates, Bounds(low, high), np.random.default_rng([seed, row]), criterion.parts[0])
+    bounds = np.zeros(len(space)), np.ones(len(space))
+    if start.within:
+        bounds = start.within[0][row], start.within[1][row]
+    return _Search(row, candidates, bounds, np.random.default_rng([seed, row]), criterion.parts[0])
 
 
 def _candidate(start: SearchStart, criterion: Criterion, budget: Budget, row: int, vector: Floats) -> Candidate:
@@ -146,7 +147,7 @@ def _switch(
     likely = start.prediction.likeliest(search.row, _LIKELIEST) if move.to == "likely" else ()
     vectors = others(space, best.vector, likely)
     if move.to == "defaults":
-        vectors = [plain(space, vector) for vector in (best.vector, *vectors)]
+        vectors = [np.where(space.scalars, space.encode(space.defaults), chosen) for chosen in (best.vector, *vectors)]
     if vectors:
         search.resting = best
         search.candidates = [_candidate(start, criterion, budget, search.row, vector) for vector in vectors]
@@ -169,7 +170,10 @@ def _built(
         for vector in points(candidate, move, space, search.bounds, search.part, search.rng)
     ]
     parameters = [space.canonical(space.decode(vector)) for _, _, vector in asked]
-    residuals = _residuals(criterion.measure, [search.row for search, _, _ in asked], crew.build(parameters))
+    shapes = [build.shape for build in crew.build(parameters)]
+    pairs = [(search.row, shape) for (search, _, _), shape in zip(asked, shapes, strict=True) if shape is not None]
+    measures = iter(criterion.measure(pairs))
+    residuals = [None if shape is None else next(measures) for shape in shapes]
     before = {search: search.cost for search, _, _ in asked}
     measured: dict[Candidate, list[tuple[float, Floats, Floats]]] = {candidate: [] for _, candidate, _ in asked}
     for (search, candidate, vector), values, residual in zip(asked, parameters, residuals, strict=True):
@@ -208,10 +212,3 @@ def _known_is_best(search: _Search, start: SearchStart) -> bool:
     if start.new is None or not best.known or best.residual is None:
         return False
     return not start.new & set(space.active(space.decode(best.vector)))
-
-
-def _residuals(measure: Measure, rows: Sequence[int], builds: Sequence[Build]) -> list[Floats | None]:
-    """One for each build; None where there is no shape, or none that can be measured."""
-    pairs = [(row, build.shape) for row, build in zip(rows, builds, strict=True) if build.shape is not None]
-    measured = iter(measure(pairs))
-    return [None if build.shape is None else next(measured) for build in builds]

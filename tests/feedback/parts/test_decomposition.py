@@ -3,7 +3,7 @@ import pytest
 
 from shapewright.comparison.surfaces import sample
 from shapewright.feedback.parts.decomposition import MOST, decompose
-from shapewright.feedback.surfaces.interior import filled
+from shapewright.feedback.surfaces.visible_surface import filled
 from shapewright.modelling.solids import box, cylinder
 
 

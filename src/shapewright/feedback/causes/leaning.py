@@ -9,7 +9,7 @@ from shapewright.building import Workers
 from shapewright.feedback.parts.supports import supports, with_splayed
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.parameters import Parameters
-from shapewright.search.combinations import others
+from shapewright.search.candidates import others
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
 

@@ -18,8 +18,8 @@ from shapewright.feedback.parts.around import COUNTS, turns
 from shapewright.feedback.parts.decomposition import decompose
 from shapewright.feedback.parts.pieces import Kind, Piece
 from shapewright.feedback.parts.supports import bounds_of, supports
-from shapewright.feedback.surfaces.interior import filled
 from shapewright.feedback.surfaces.residuals import NEAR, Residuals
+from shapewright.feedback.surfaces.visible_surface import filled
 from shapewright.shapes import Floats, Mesh
 
 # Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
@@ -28,6 +28,7 @@ _FEWEST = 8  # points on a part that tell whether it is surplus
 _BETTER = 0.88  # of the replica's cost, that a hypothesis must stay below
 _HOPEFUL = 1.15  # of that, before pieces are pruned and shaped
 _PLAIN, _FANCY = 0.985, 0.93  # of the cost of a box, below which a plain other form is taken, or a fancy one
+_FANCIES = ("frustum", "foot", "sphere", "sloping spokes")
 _OVERLAP = 0.2  # of a piece with a removed part, from which on it takes its place
 _EVEN = 0.93  # share of the points that have a mirror image, from which on a shape is symmetric
 _BREADTH = 0.1  # of spokes, of the whole
@@ -210,14 +211,10 @@ def _shaped(hypothesis: Hypothesis, replica: Mesh, costs: Costs) -> Hypothesis:
             continue
         before, after = hypothesis.pieces[:i], hypothesis.pieces[i + 1 :]
         forms = [replace(hypothesis, pieces=(*before, replace(piece, kind=k), *after)) for k in _forms(piece)]
-        fit = {h: _share(h.pieces[i].kind) for h in priced(forms, replica, costs)}
+        fit = {h: _FANCY if h.pieces[i].kind in _FANCIES else _PLAIN for h in priced(forms, replica, costs)}
         better = [h for h, share in fit.items() if h.cost < share * hypothesis.cost]
         hypothesis = min(better, key=lambda h: h.cost / fit[h], default=hypothesis)
     return hypothesis
-
-
-def _share(kind: Kind) -> float:
-    return _FANCY if kind in ("frustum", "foot", "sphere", "sloping spokes") else _PLAIN
 
 
 def _forms(piece: Piece) -> tuple[Kind, ...]:

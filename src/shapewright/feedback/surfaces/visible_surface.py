@@ -22,6 +22,8 @@ SAMPLES = 4000
 """Points of a surface, at least."""
 _SIZE, _RADIUS = 160, 0.87
 """Pixels of the views that show what is visible, and the radius of what they show: of all of a normalised mesh."""
+_INNER_SIZE, _INNER_RADIUS = 128, 0.88
+"""The same of the views that show what lies inside."""
 _ROUNDS = 3  # of drawing more points, until half of those asked for can be seen
 _NEARBY = 0.05  # up to which distance is measured by cells, which are quicker than a tree
 _REACH = 1.0  # spacings around a point within which its tangent plane stands for the surface
@@ -100,3 +102,17 @@ class VisibleSurface:
     def nearness(self, points: Floats, most: float) -> Floats:
         """The same, ``most`` where it is more: at a tenth of the time."""
         return self.cells.distance(points, _REACH * self.spacing, most)
+
+
+def filled(mesh: Mesh, points: Floats, seed: int = 0) -> Floats:
+    """The points (N, 3) on a mesh's surface, and as many between pairs of them as lie inside it.
+
+    They tell a post from a ring, in triangle soups too.
+    """
+    if len(points) < 2:
+        return points
+    rng = np.random.default_rng(seed)
+    first, second = rng.integers(len(points), size=(2, len(points)))
+    part = rng.random((len(points), 1))
+    between = points[first] * part + points[second] * (1.0 - part)
+    return np.concatenate([points, between[AllRound.of(mesh, _INNER_SIZE, _INNER_RADIUS).encloses(between)]])

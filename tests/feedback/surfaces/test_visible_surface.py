@@ -1,7 +1,7 @@
 import numpy as np
 
 from shapewright.comparison.surfaces import sample
-from shapewright.feedback.surfaces.interior import filled
+from shapewright.feedback.surfaces.visible_surface import filled
 from shapewright.modelling.solids import box, cylinder
 from shapewright.shapes import concatenate
 
