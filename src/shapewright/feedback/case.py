@@ -8,18 +8,11 @@ from typing import Any, Literal
 
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import Residuals
-from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.parameters import Parameters
 from shapewright.shapes import Mesh
 
 CauseKind = Literal[
-    "out of range",
-    "badly predicted",
-    "wrong choice",
-    "missing part",
-    "surplus part",
-    "wrong form",
-    "not such a shape",
+    "out of range", "badly predicted", "wrong choice", "missing part", "surplus part", "wrong form", "not such a shape"
 ]
 
 
@@ -74,11 +67,6 @@ class Case:
         return cls(
             name, replica.row, reference, compatible, replica, residuals, here, replica, replica, residuals, replica
         )
-
-    @property
-    def surface(self) -> VisibleSurface:
-        """The visible surface of the normalised reference."""
-        return self.residuals.reference
 
 
 def updated(cases: Iterable[Case], newer: Iterable[Case]) -> list[Case]:

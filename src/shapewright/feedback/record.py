@@ -100,29 +100,15 @@ def _region(region: Region) -> dict[str, Any]:
 
 
 def _shared(cause: SharedCause) -> dict[str, Any]:
-    record: dict[str, Any] = {
-        "kind": cause.kind,
-        "text": cause.text,
-        "references": list(cause.references),
-        "representative": cause.representative,
-    }
-    if beyond := cause.outside:
-        record |= {"parameter": beyond.parameter, "side": beyond.side, "value": beyond.value, "end": beyond.end}
-    return record
+    record = {**vars(cause), "references": list(cause.references)}
+    outside = record.pop("outside")
+    return record | vars(outside) if outside else record
 
 
 def _suggestion(suggestion: Suggestion) -> dict[str, Any]:
-    return {
-        "kind": suggestion.kind,
-        "title": suggestion.title,
-        "text": suggestion.text,
-        "snippet": suggestion.snippet,
-        "source": suggestion.source,
-        "picture": base64.b64encode(suggestion.picture).decode("ascii"),
-        "references": list(suggestion.references),
-        "gain": suggestion.gain,
-        "tried": dict(suggestion.tried),
-    }
+    picture = base64.b64encode(suggestion.picture).decode("ascii")
+    own = {"picture": picture, "references": list(suggestion.references), "tried": dict(suggestion.tried)}
+    return {**vars(suggestion), **own, "gain": suggestion.gain}
 
 
 def _rounded(values: Any) -> list[float]:

@@ -115,13 +115,18 @@ def _suggestion(change: Change, procedure: Procedure, cases: Mapping[int, Case],
     idea, outcome = change.proposal, change.outcome
     rows = sorted(outcome.compatible, key=lambda row: outcome.distance(row) - cases[row].nearest.distance)
     names = judge.references.names
+    examples = []
+    for row in rows[:_PICTURED]:
+        marked = [np.zeros((0, 3)), *(region.points for region in cases[row].covering_residuals.of("unexplained"))]
+        before, after = cases[row].covering.mesh, outcome.replicas[row].mesh
+        examples.append(Example(cases[row].reference, np.concatenate(marked), before, after))
     return Suggestion(
         idea.kind,
         idea.title,
         _text(change, procedure, len(rows), len(cases)),
         _snippet(change, procedure),
         change.source,
-        card([_example(cases[row], outcome.replicas[row].mesh) for row in rows[:_PICTURED]]),
+        card(examples),
         tuple(names[row] for row in sorted(rows)),
         {
             "tried": len(outcome.counted),
@@ -132,12 +137,6 @@ def _suggestion(change: Change, procedure: Procedure, cases: Mapping[int, Case],
             "parameters": {names[row]: outcome.parameters[row] for row in rows},
         },
     )
-
-
-def _example(case: Case, after: Mesh) -> Example:
-    regions = [region.points for region in case.covering_residuals.of("unexplained")]
-    marked = np.concatenate(regions) if regions else np.zeros((0, 3))
-    return Example(case.reference, marked, case.covering.mesh, after)
 
 
 def _text(change: Change, procedure: Procedure, gain: int, misfits: int) -> str:

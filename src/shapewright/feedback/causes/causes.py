@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from operator import attrgetter
 
 from shapewright.building import Workers
-from shapewright.feedback.case import Case, Replica, updated
+from shapewright.feedback.case import Case, updated
 from shapewright.feedback.causes.better_replicas import (
     covering_replicas,
     nearest_replicas,
@@ -50,13 +51,13 @@ def _searched(
     misfits: list[Case], predictor: Predictor | None, crew: Workers, judge: Judge, stages: Stages
 ) -> list[Case]:
     """The misfits with the nearest replica within the space and outside, and the one that covers most."""
-    space, threshold = crew.procedure.space, judge.settings.threshold
+    space, threshold, threads = crew.procedure.space, judge.settings.threshold, judge.settings.workers
     known = with_fields([case.replica for case in misfits], judge)
-    overlays = in_threads(lambda case: Overlay(case.surface, case.replica.mesh), misfits, judge.settings.workers)
+    overlays = in_threads(lambda case: Overlay(case.residuals.reference, case.replica.mesh), misfits, threads)
     prediction = _prediction(space, predictor, misfits)
     covering = covering_replicas(known, overlays, prediction, crew, judge)
     misfits = [
-        replace(case, replica=old, overlay=overlay, covering=new, nearest=min(old, new, key=_distance))
+        replace(case, replica=old, overlay=overlay, covering=new, nearest=min(old, new, key=attrgetter("distance")))
         for case, old, overlay, new in zip(misfits, known, overlays, covering, strict=True)
     ]
     stages.step(1, 4)
@@ -80,15 +81,11 @@ def _compared(misfits: Sequence[Case], judge: Judge) -> list[Case]:
     described = [target.descriptor for target in judge.targets if isinstance(target, MeshTarget)]
     alone = isolation(described, settings.align, settings.workers, settings.seed)
     unlike = outliers(alone)
-    compared = in_threads(lambda case: residuals(case.surface, case.covering.mesh), misfits, settings.workers)
+    fresh = in_threads(lambda case: residuals(case.residuals.reference, case.covering.mesh), misfits, settings.workers)
     return [
         replace(case, covering_residuals=where, isolation=float(alone[case.row]) if unlike[case.row] else None)
-        for case, where in zip(misfits, compared, strict=True)
+        for case, where in zip(misfits, fresh, strict=True)
     ]
-
-
-def _distance(replica: Replica) -> float:
-    return replica.distance
 
 
 def _prediction(space: ParameterSpace, predictor: Predictor | None, cases: Sequence[Case]) -> Prediction:

@@ -8,7 +8,7 @@ from typing import Any
 from shapewright.feedback.case import Case, Cause, Replica
 from shapewright.feedback.causes.leaning import Leaning
 from shapewright.feedback.causes.structure import part_causes
-from shapewright.parameters import ParameterSpace, Scalar, Side
+from shapewright.parameters import ParameterSpace, Scalar
 
 # Where nothing else is said, chosen on seed 0 of benchmarks/causes.py.
 _HELPS = 0.2  # share of the distance that a longer Range has to take away to be a cause when it does not suffice
@@ -37,7 +37,9 @@ def diagnosed(space: ParameterSpace, threshold: float, case: Case) -> tuple[Caus
     if ranges and case.outside.distance <= threshold and _together(case, threshold):
         return ranges
     if case.isolation is not None and case.nearest.distance > _FAR * threshold:
-        return (_unlike(case.isolation), *parts, *ranges)
+        away = f"the nearest are {case.isolation:.2f} away; perhaps it does not belong here"
+        text = f"unlike all other references: {away}"
+        return (Cause("not such a shape", text, {"isolation": case.isolation}), *parts, *ranges)
     return (*parts, *ranges)
 
 
@@ -93,7 +95,8 @@ def _ranges(space: ParameterSpace, threshold: float, inside: Replica, outside: R
     enough = outside.distance <= threshold
     if not excesses or not (enough or outside.distance < (1.0 - _HELPS) * inside.distance):
         return ()
-    how = ", ".join(f"{e.parameter} at {e.value:.3g}, Range {_ends(e.side)} at {e.end:.4g}" for e in excesses)
+    verbs = {"low": "starts", "high": "ends"}
+    how = ", ".join(f"{e.parameter} at {e.value:.3g}, Range {verbs[e.side]} at {e.end:.4g}" for e in excesses)
     after = f"the distance would be {outside.distance:.2f} instead of {inside.distance:.2f}"
     evidence = {
         "wishes": [{"parameter": e.parameter, "value": e.value, "end": e.end, "side": e.side} for e in excesses],
@@ -103,15 +106,6 @@ def _ranges(space: ParameterSpace, threshold: float, inside: Replica, outside: R
         "enough": enough,
     }
     return (Cause("out of range", f"{how}: {after}", evidence),)
-
-
-def _ends(side: Side) -> str:
-    return "starts" if side == "low" else "ends"
-
-
-def _unlike(isolation: float) -> Cause:
-    text = f"unlike all other references: the nearest are {isolation:.2f} away; perhaps it does not belong here"
-    return Cause("not such a shape", text, {"isolation": isolation})
 
 
 def _word(value: Any) -> str:

@@ -55,9 +55,7 @@ def _searched(known: Sequence[Replica], ends: Sequence[set[End]], crew: Workers,
     wide = space.widened()
     vectors = refine(
         SearchStart(
-            _prediction(wide, known, ends),
-            [replica.parameters for replica in known],
-            within=space.limits(wide, ends),
+            _prediction(wide, known, ends), [replica.parameters for replica in known], within=space.limits(wide, ends)
         ),
         as_near_as(ENOUGH * _CLOSE, known, judge),
         crew,

@@ -49,7 +49,9 @@ def shared_causes(space: ParameterSpace, cases: Sequence[Case]) -> list[SharedCa
 
 def signature(residuals: Residuals) -> Floats:
     """Where two surfaces differ, as a unit vector: shares of both sides' regions in blurred cells; 0 without any."""
-    return _unit(np.concatenate([_filled(residuals, side).ravel() for side in ("unexplained", "surplus")]))
+    vector = np.concatenate([_filled(residuals, side).ravel() for side in ("unexplained", "surplus")])
+    length = float(np.linalg.norm(vector))
+    return vector / length if length > 0.0 else vector
 
 
 def _filled(residuals: Residuals, side: RegionSide) -> Floats:
@@ -58,11 +60,6 @@ def _filled(residuals: Residuals, side: RegionSide) -> Floats:
         places = np.clip(((region.points + _HALF) / (2.0 * _HALF) * _CELLS).astype(int), 0, _CELLS - 1)
         np.add.at(cells, tuple(places.T), region.share / len(region.points))
     return np.asarray(gaussian_filter(cells, _BLUR))
-
-
-def _unit(vector: Floats) -> Floats:
-    length = float(np.linalg.norm(vector))
-    return vector / length if length > 0.0 else vector
 
 
 def _of_kind(kind: CauseKind, cases: Sequence[Case]) -> list[SharedCause]:

@@ -48,15 +48,10 @@ def part_causes(residuals: Residuals) -> tuple[Cause, ...]:
 
 def _whole_parts(residuals: Residuals) -> set[int]:
     """Surplus regions (ids) that hold most of a connected part of the replica."""
-    ids: set[int] = set()
     parts = pieces(residuals.replica, residuals.mesh)
-    for region in residuals.of("surplus"):
-        inside = np.zeros(len(residuals.replica.points), dtype=bool)
-        inside[region.rows] = True
-        of_parts = np.unique(parts[region.rows])
-        if any(inside[parts == part].mean() > _WHOLE for part in of_parts if part >= 0):
-            ids.add(id(region))
-    return ids
+    rows_of = [np.flatnonzero(parts == part) for part in range(parts.max(initial=-1) + 1)]
+    surplus = residuals.of("surplus")
+    return {id(region) for region in surplus if any(np.isin(rows, region.rows).mean() > _WHOLE for rows in rows_of)}
 
 
 def _moved(residuals: Residuals) -> set[int]:
@@ -91,7 +86,8 @@ def _cause(kind: PartCause, regions: list[Region], weight: float) -> Cause:
             what = chief.label or "a part"
             text = f"{what} is too much: {size}{more}, {share['surplus']:.0%} of the replica's surface"
         case "wrong form":
-            text = f"another form{' of ' + chief.label if chief.label else ''}: {size}{more}, {_shares(share)}"
+            shares = " and ".join(f"{value:.0%} of the surface {side}" for side, value in share.items() if value > 0.0)
+            text = f"another form{' of ' + chief.label if chief.label else ''}: {size}{more}, {shares}"
     evidence = {
         "regions": len(regions),
         "label": chief.label,
@@ -103,8 +99,3 @@ def _cause(kind: PartCause, regions: list[Region], weight: float) -> Cause:
         "weight": round(weight, 5),
     }
     return Cause(kind, text, evidence, chief.label, weight)
-
-
-def _shares(share: dict[str, float]) -> str:
-    parts = [f"{value:.0%} of the surface {side}" for side, value in share.items() if value > 0.0]
-    return " and ".join(parts)

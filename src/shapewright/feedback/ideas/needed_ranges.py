@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from shapewright.feedback.ideas.proposal import Proposal, Ranges
+from shapewright.feedback.ideas.proposal import Interval, Proposal, Ranges
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 from shapewright.shapes import Floats
 
@@ -31,7 +31,7 @@ def narrowed(proposal: Proposal, space: ParameterSpace, values: Sequence[Paramet
     }
 
 
-def generous(values: Floats, whole: bool) -> tuple[float, float, float]:
+def generous(values: Floats, whole: bool) -> Interval:
     """Low, high and default of a Range to begin with: far wider than what hypotheses ask for. whole: integers only."""
     low, high = (float(q) for q in np.quantile(values, _WANTED))
     middle = float(np.median(values))
@@ -42,9 +42,7 @@ def generous(values: Floats, whole: bool) -> tuple[float, float, float]:
     return low, high + more, middle
 
 
-def _kept_short(
-    parameter: Parameter, values: Sequence[float], wide: tuple[float, float, float]
-) -> tuple[float, float, float]:
+def _kept_short(parameter: Parameter, values: Sequence[float], wide: Interval) -> Interval:
     """The old Range, as much longer as the values need with a margin, and no longer than the one that was tried."""
     assert isinstance(parameter, Scalar | Integer)
     low, high = min(values), max(values)
@@ -56,7 +54,7 @@ def _kept_short(
     )
 
 
-def _around(values: Floats, whole: bool, wide: tuple[float, float, float]) -> tuple[float, float, float]:
+def _around(values: Floats, whole: bool, wide: Interval) -> Interval:
     """Low, high and default: the values and a margin, inside the wide range."""
     if whole:
         least, most = float(values.min()), float(values.max())
@@ -72,7 +70,5 @@ def _around(values: Floats, whole: bool, wide: tuple[float, float, float]) -> tu
 
 def _down(value: float) -> float:
     """The next lower number of two digits."""
-    if value == 0.0:
-        return 0.0
-    unit = 10.0 ** (np.floor(np.log10(abs(value))) - 1)
+    unit = 10.0 ** (np.floor(np.log10(abs(value))) - 1) if value else 1.0
     return float(np.floor(value / unit + 1e-9) * unit)

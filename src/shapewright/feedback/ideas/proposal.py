@@ -14,8 +14,10 @@ from shapewright.feedback.writing.wording import Rule
 from shapewright.parameters import End, Parameters
 from shapewright.shapes import Mesh
 
-Ranges = Mapping[str, tuple[float, float, float]]
-"""Low, high and default by the name of a parameter."""
+Interval = tuple[float, float, float]
+"""Low, high and default of a parameter."""
+Ranges = Mapping[str, Interval]
+"""By the name of the parameter."""
 _LEAST_WAY = 0.05  # of the threshold: nearer shapes are as good as compatible
 
 

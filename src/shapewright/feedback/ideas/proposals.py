@@ -53,27 +53,24 @@ def frames_of(replica: Mesh, always: Sequence[str]) -> Frames:
 
 def _rules(source: str, procedure: str, misfits: Sequence[Misfit], always: Sequence[str]) -> Iterator[Proposal]:
     pairs = [(misfit, hypothesis) for misfit in misfits for hypothesis in misfit.hypotheses]
-    labels = list(dict.fromkeys(label for misfit in misfits for label in misfit.replica.label_names))
-    for label in labels:
+    free = partial(free_name, source, procedure)
+    for label in dict.fromkeys(label for misfit in misfits for label in misfit.replica.label_names):
         bare = [(m, h) for m, h in pairs if not h.pieces]
         yield from _splays(source, procedure, [(m, h) for m, h in bare if h.splayed == (label,)], always)
         inwards = [(m, h) for m, h in bare if h.inset == (label,)]
         if inwards and label in always:
             scales, frames = [h.scale for _, h in inwards], [frames_of(m.replica, ()) for m, _ in inwards]
-            rule = drawing_in(
-                label, scales, frames, partial(free_name, source, procedure), f"The {label}, nearer to the middle."
-            )
+            rule = drawing_in(label, scales, frames, free, f"The {label}, nearer to the middle.")
             ranges = {q.name: (*_INSET, 1.0) for q in rule.quantities}
             yield _proposal("moved part", f"The {label} nearer to the middle", source, procedure, rule, ranges, inwards)
         without = [(m, h) for m, h in bare if h.removed == (label,) and not h.inset and not h.splayed]
         if without:
-            rule = removal(label, partial(free_name, source, procedure))
+            rule = removal(label, free)
             yield _proposal("part removed", f"Without the {label}", source, procedure, rule, {}, without)
         for drawn_in in (False, True):
-            some = [
-                (m, h) for m, h in pairs if h.pieces and label in h.removed and (h.inset == (ALL_OTHERS,)) == drawn_in
-            ]
-            yield from _with_pieces(source, procedure, some, always, drawn_in)
+            others = [(m, h) for m, h in pairs if (h.inset == (ALL_OTHERS,)) == drawn_in]
+            replaced = [(m, h) for m, h in others if h.pieces and label in h.removed]
+            yield from _with_pieces(source, procedure, replaced, always, drawn_in)
     added = [(m, h) for m, h in pairs if h.pieces and not h.removed]
     yield from _with_pieces(source, procedure, added, always, False)
 
@@ -92,11 +89,7 @@ def _splays(source: str, procedure: str, pairs: Wanted, always: Sequence[str]) -
 
 
 def _with_pieces(
-    source: str,
-    procedure: str,
-    pairs: Wanted,
-    always: Sequence[str],
-    drawn_in: bool,
+    source: str, procedure: str, pairs: Wanted, always: Sequence[str], drawn_in: bool
 ) -> Iterator[Proposal]:
     """Rules for the pieces that are commonest among hypotheses that take the same part away, or none."""
     counts = Counter(key for _, h in pairs for key in dict.fromkeys(_form(piece) for piece in h.pieces))
@@ -112,7 +105,8 @@ def _with_pieces(
         several = [[_largest(h.pieces, key) for _, h in members] for key in chosen]
         removed = _removed(members)
         frames = [frames_of(m.replica, always) for m, _ in members]
-        nouns = listed([_article(noun(pieces)) for pieces in several])
+        words = [noun(pieces) for pieces in several]
+        nouns = listed([word if word.endswith("s") else f"a {word}" for word in words])
         where = f" in place of the {listed(removed)}" if removed else ""
         title = f"{nouns[0].upper()}{nouns[1:]}{where}{', the rest drawn in' if drawn_in else ''}"
         inset = [h.scale[0] for _, h in members] if drawn_in else None
@@ -157,30 +151,15 @@ def _labels(several: Sequence[Sequence[Piece]], removed: Sequence[str], members:
 
 
 def _proposal(
-    kind: str,
-    title: str,
-    source: str,
-    procedure: str,
-    rule: Rule,
-    ranges: Ranges,
-    members: Wanted,
-    pieces: int = 1,
+    kind: str, title: str, source: str, procedure: str, rule: Rule, ranges: Ranges, members: Wanted, pieces: int = 1
 ) -> Proposal:
     starts: dict[int, Parameters] = {}
     worth = 0.0
     for i, (misfit, hypothesis) in enumerate(members):
         starts[misfit.row] = {q.name: as_value(q.whole, q.values[i]) for q in rule.quantities}
         worth += float(np.clip(1.5 - hypothesis.cost / misfit.goal, 0.0, 1.0))
-    return Proposal(
-        kind,
-        title,
-        lambda chosen: with_rule(source, procedure, rule.spelled(chosen)),
-        ranges,
-        starts,
-        worth + 0.05 * pieces,
-        rule,
-    )
 
+    def write(chosen: Ranges) -> str:
+        return with_rule(source, procedure, rule.spelled(chosen))
 
-def _article(word: str) -> str:
-    return word if word.endswith("s") else f"a {word}"
+    return Proposal(kind, title, write, ranges, starts, worth + 0.05 * pieces, rule)

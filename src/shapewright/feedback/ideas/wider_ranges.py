@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from shapewright.feedback.ideas.proposal import Misfit, Proposal, Ranges, listed
+from shapewright.feedback.ideas.proposal import Interval, Misfit, Proposal, Ranges, listed
 from shapewright.feedback.writing.edit import with_range
 from shapewright.feedback.writing.source import EditError
 from shapewright.feedback.writing.spelling import number
@@ -52,10 +52,7 @@ def _widened(source: str, procedure: str, space: ParameterSpace, ranges: Ranges)
         if isinstance(parameter, Integer):
             source = with_range(source, procedure, name, str(round(low)), str(round(high)), None)
         elif isinstance(parameter, Scalar):
-            new = (
-                number(low) if low < parameter.low else None,
-                number(high) if high > parameter.high else None,
-            )
+            new = number(low) if low < parameter.low else None, number(high) if high > parameter.high else None
             limits = (float(new[0] or parameter.low), float(new[1] or parameter.high))
             source = with_range(source, procedure, name, *new, _steps(parameter, *limits))
     return source
@@ -71,7 +68,7 @@ def _steps(parameter: Scalar, low: float, high: float) -> str | None:
     return f"({', '.join(f'{step:g}' for step in sorted({*parameter.steps, low, high}))})"
 
 
-def _longer(parameter: Parameter, sides: set[str]) -> tuple[float, float, float]:
+def _longer(parameter: Parameter, sides: set[str]) -> Interval:
     """Low, high and default of a Range that is longer on these sides."""
     assert isinstance(parameter, Scalar | Integer)
     longer = parameter.widened()

@@ -26,7 +26,8 @@ def loose(pieces: Sequence[Piece], standing: Sequence[Mesh]) -> int:
     """
     if not pieces:
         return 0
-    reach = _REACH * max(float(np.ptp([[p.low, p.high] for p in pieces], axis=(0, 1)).max()), *_extents(standing))
+    extents = [np.ptp([[p.low, p.high] for p in pieces], axis=(0, 1)), *(mesh.extent for mesh in standing)]
+    reach = _REACH * float(np.max(extents))
     points = [sample(mesh, _POINTS).points for mesh in standing if area(mesh) > 0.0]
     held = {i for i, piece in enumerate(pieces) if any(_touches(piece, some, reach) for some in points)}
     if not points:
@@ -65,10 +66,6 @@ def _components(mesh: Mesh) -> list[Mesh]:
 def _apart(a: Mesh, on_a: VisibleSurface, b: Mesh, on_b: VisibleSurface) -> float:
     corners = np.unique(a.faces), np.unique(b.faces)
     return min(float(on_b.distance(a.vertices[corners[0]]).min()), float(on_a.distance(b.vertices[corners[1]]).min()))
-
-
-def _extents(standing: Sequence[Mesh]) -> list[float]:
-    return [0.0, *(float(mesh.extent.max()) for mesh in standing)]
 
 
 def _touches(piece: Piece, points: Floats, reach: float) -> bool:

@@ -10,27 +10,20 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from shapewright.feedback.parts.around import spokes
-from shapewright.feedback.parts.pieces import Kind, Piece
+from shapewright.feedback.parts.pieces import SLATS, Piece
 from shapewright.feedback.surfaces.connection import connected_points
 from shapewright.shapes import Floats
 
 MOST = 6
 """Pieces at most, the largest ones."""
 # Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
-_SYMMETRIC, _NEAR = (
-    0.8,
-    0.035,
-)  # share of the points that have a mirror image, so near, from which on a set is symmetric
+_SYMMETRIC, _NEAR = 0.8, 0.035  # share of points with a mirror image that makes a set symmetric; how near that is
 _CUTS = 24  # places along an axis where a box may be halved
 _WORTH = 0.62  # volume of two boxes over that of one around them, below which they are two
 _PAD = 0.012  # added to every side of a box, in units of the whole: flat boxes have a volume
 _FEWEST = 10  # points of a piece
 _EQUAL = 0.03  # difference of sizes and places, in units of the whole, that are one
-_LINKS, _LINK, _SHORTEST = (
-    4,
-    3.0,
-    0.015,
-)  # neighbours lie within so many median distances of the fourth, at least so far
+_LINKS, _LINK, _SHORTEST = 4, 3.0, 0.015  # how far neighbours lie: in median distances of the fourth, and at least
 _ROW = 3  # pieces of a row
 _CLEAR, _GAP = 1.1, 0.02  # steps of a row in units of a piece, and the gap as a part of the row, at least
 
@@ -46,15 +39,15 @@ def decompose(points: Floats, middle: tuple[float, float], unit: float, radial: 
         return ()
     centre = np.array([middle[0], 0.0, middle[1]])
     places = (points - centre) / unit
-    first: list[Piece] = []
+    first: tuple[Piece, ...] = ()
     if radial:
         if (around := spokes(places)) is None:
             return ()
         bars, explained = around
-        first = [replace(bars, low=bars.low * unit + centre, high=bars.high * unit + centre, middle=middle)]
+        first = (replace(bars, low=bars.low * unit + centre, high=bars.high * unit + centre, middle=middle),)
         places = places[~explained]
         if len(places) < _FEWEST:
-            return tuple(first)
+            return first
     folded = [_symmetric(places, axis) for axis in (0, 2)]
     for axis, fold in zip((0, 2), folded, strict=True):
         if fold:
@@ -62,7 +55,7 @@ def decompose(points: Floats, middle: tuple[float, float], unit: float, radial: 
     boxes = [box for group in _connected(places) for box in _split(places[group], MOST)]
     pieces = [_piece(low, high, folded, centre, unit, middle) for low, high in boxes]
     pieces = sorted(_rows(pieces, unit), key=lambda piece: -float(np.prod(piece.size + _PAD * unit)))
-    return tuple([*first, *pieces][:MOST])
+    return (*first, *pieces)[:MOST]
 
 
 def _symmetric(places: Floats, axis: int) -> bool:
@@ -127,8 +120,7 @@ def _rows(pieces: Sequence[Piece], unit: float) -> list[Piece]:
     """The pieces, those that stand in a row at equal distances replaced by slats."""
     copies_of = [piece.copies for piece in pieces]
     copies = [copy for several in copies_of for copy in several]
-    kinds: tuple[Kind, Kind, Kind] = ("slats x", "slats y", "slats z")
-    for axis in range(3):
+    for axis, kind in enumerate(SLATS):
         for first in copies:
             others = [d for d in range(3) if d != axis]
             row = [
@@ -144,7 +136,7 @@ def _rows(pieces: Sequence[Piece], unit: float) -> list[Piece]:
             low = np.min([copy.low for copy in row], axis=0)
             high = np.max([copy.high for copy in row], axis=0)
             gap = float(steps.mean() - np.mean([copy.size[axis] for copy in row])) / float(high[axis] - low[axis])
-            made = Piece(kinds[axis], low, high, middle=first.middle, count=len(row), gap=max(gap, _GAP))
+            made = Piece(kind, low, high, middle=first.middle, count=len(row), gap=max(gap, _GAP))
             inside = {id(copy) for copy in row}
             rest = [p for p, own in zip(pieces, copies_of, strict=True) if not inside & {id(copy) for copy in own}]
             return [made, *_rows(rest, unit)]

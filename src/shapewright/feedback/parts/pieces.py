@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
@@ -9,25 +10,23 @@ from typing import Literal
 
 import numpy as np
 
-from shapewright.modelling.solids import Solid, box, cone, cylinder, slats, sphere
+from shapewright.modelling.solids import Axis, Solid, box, cone, cylinder, slats, sphere
 from shapewright.shapes import Floats, Mesh
 
-Kind = Literal[
-    "box",
-    "cylinder",
-    "rod x",
-    "rod z",
-    "frustum",
-    "foot",
-    "sphere",
-    "slats x",
-    "slats y",
-    "slats z",
-    "spokes",
-    "sloping spokes",
-]
+PlainKind = Literal["box", "cylinder", "rod x", "rod z", "frustum", "foot", "sphere"]
+Kind = PlainKind | Literal["slats x", "slats y", "slats z", "spokes", "sloping spokes"]
 WIDER_TOP, WIDER_FOOT = 0.55, 0.55
 """Part of the width that the narrow end of a frustum or foot has."""
+_PLAIN: dict[Kind, Callable[[], Solid]] = {
+    "box": lambda: box(1.0),
+    "cylinder": lambda: cylinder(1.0),
+    "rod x": lambda: cylinder(1.0).rotate(90.0, "z"),
+    "rod z": lambda: cylinder(1.0).rotate(90.0, "x"),
+    "frustum": lambda: cone(1.0, top=1.0, bottom=WIDER_TOP),
+    "foot": lambda: cone(1.0, top=WIDER_FOOT, bottom=1.0),
+    "sphere": lambda: sphere(1.0),
+}
+SLATS: dict[Kind, Axis] = {"slats x": "x", "slats y": "y", "slats z": "z"}
 SPOKES: tuple[Kind, ...] = ("spokes", "sloping spokes")
 SLOPE = (0.4, 0.5)
 """Of sloping spokes: the height of their inner ends, of the whole; that of the outer ends, of the inner ones'."""
@@ -72,13 +71,9 @@ class Piece:
     @property
     def noun(self) -> str:
         """What an author might call it."""
-        width, height, depth = self.size
-        if self.kind.startswith("slats"):
+        if self.kind in SLATS:
             return "rails" if self.kind == "slats y" else "spindles"
-        if self.kind in SPOKES:
-            return "spokes"
-        several = "s" if any(self.mirrored) else ""
-        return _noun(self.kind, self.thin, height / max(width, depth), width >= depth) + several
+        return "spokes" if self.kind in SPOKES else _noun(self) + "s" * any(self.mirrored)
 
     @property
     def copies(self) -> list[Piece]:
@@ -106,31 +101,16 @@ class Piece:
 
 @lru_cache(maxsize=256)
 def _unit(kind: Kind, count: int, gap: float, breadth: float, turn: float) -> Solid:
-    if kind == "cylinder":
-        return cylinder(1.0)
-    if kind == "rod x":
-        return cylinder(1.0).rotate(90.0, "z")
-    if kind == "rod z":
-        return cylinder(1.0).rotate(90.0, "x")
-    if kind == "frustum":
-        return cone(1.0, top=1.0, bottom=WIDER_TOP)
-    if kind == "foot":
-        return cone(1.0, top=WIDER_FOOT, bottom=1.0)
-    if kind == "sphere":
-        return sphere(1.0)
-    if kind == "slats x":
-        return slats(1.0, count, gap, "x")
-    if kind == "slats y":
-        return slats(1.0, count, gap, "y")
-    if kind == "slats z":
-        return slats(1.0, count, gap, "z")
-    if kind == "spokes":
-        return _spoke(1.0, breadth).rotate(turn).polar_array(count)
+    if kind in SLATS:
+        return slats(1.0, count, gap, SLATS[kind])
+    if kind not in SPOKES:
+        return _PLAIN[kind]()
+    inner, outer = SLOPE
+    spoke = _spoke(1.0 if kind == "spokes" else inner, breadth)
     if kind == "sloping spokes":
-        inner, outer = SLOPE
         slope = (0.0, (1.0 - inner) / 2.0, 0.0), (0.0, (inner * outer - 1.0) / 2.0, 0.0)
-        return _spoke(inner, breadth).taper((outer, 1.0), "x").path(*slope, axis="x").rotate(turn).polar_array(count)
-    return box(1.0)
+        spoke = spoke.taper((outer, 1.0), "x").path(*slope, axis="x")
+    return spoke.rotate(turn).polar_array(count)
 
 
 def _spoke(height: float, breadth: float) -> Solid:
@@ -138,13 +118,12 @@ def _spoke(height: float, breadth: float) -> Solid:
     return box(((1.0 + breadth) / 2.0, height, breadth), ((1.0 - breadth) / 4.0, 0.0, 0.0))
 
 
-def _noun(kind: Kind, thin: tuple[bool, ...], slenderness: float, wide: bool) -> str:
-    if kind in ("rod x", "rod z"):
-        return "rod"
-    if kind == "sphere":
-        return "ball"
-    if kind != "box":
-        return "disc" if slenderness < 0.5 else "column"
+def _noun(piece: Piece) -> str:
+    width, height, depth = piece.size
+    thin, slenderness = piece.thin, height / max(width, depth)
+    if piece.kind != "box":
+        names = {"rod x": "rod", "rod z": "rod", "sphere": "ball"}
+        return names.get(piece.kind, "disc" if slenderness < 0.5 else "column")
     if thin == (True, False, True):
         return "post"
     if sum(thin) == 2:

@@ -79,13 +79,11 @@ def _along(several: Sequence[Piece], frames: Sequence[Frames], frame: str, share
         }
         slim = several[0].kind in _SLIM and several[0].thin[axis]
         full = (not slim) & (np.abs(low - start) < slack) & (np.abs(high - end) < slack) & (high - low > 0.5 * extent)
-        if full.mean() >= _AGREE and not mirrored:
-            half = np.full(len(several), 0.5)
-            result.append(Along("full", "middle", 2.0 * half, half, unlike=1.0 - float(full.mean())))
-            continue
-        ends = None if mirrored else _ends(low, high, frames, axis, slack, shared)
-        if ends:
-            result.append(Along("full", "middle", np.ones(len(several)), np.full(len(several), 0.5), ends))
+        fills = full.mean() >= _AGREE and not mirrored
+        ends = None if mirrored or fills else _ends(low, high, frames, axis, slack, shared)
+        if fills or ends:
+            half, unlike = np.full(len(several), 0.5), 1.0 - float(full.mean()) if fills else 0.0
+            result.append(Along("full", "middle", 2.0 * half, half, ends, unlike))
             continue
         possible = ("high",) if mirrored else tuple(places)
         agreed = sorted((p for p in possible if places[p].mean() >= _AGREE), key=lambda p: -float(places[p].mean()))

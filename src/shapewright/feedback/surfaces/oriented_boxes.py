@@ -27,7 +27,9 @@ class OrientedBox:
 def fit_box(points: Floats) -> OrientedBox:
     """The box around points (N, 3)."""
     upright, some = _along(points, np.eye(3)), points[:: max(1, len(points) // _ENOUGH)]
-    turned = [_along(points, axes) for axes in [*_about_axes(some), _principal(some)]]
+    _, _, principal = np.linalg.svd(some - some.mean(axis=0), full_matrices=False)
+    about = [axes for axis in range(3) if (axes := _turned(some, axis)) is not None]
+    turned = [_along(points, _ordered(axes)) for axes in [*about, principal]]
     best = min(turned, key=_volume)
     return best if _volume(best) < _BETTER * _volume(upright) else upright
 
@@ -42,17 +44,8 @@ def _along(points: Floats, axes: Floats) -> OrientedBox:
     return OrientedBox((low + high) / 2.0 @ axes, high - low, axes)
 
 
-def _principal(points: Floats) -> Floats:
-    _, _, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
-    return _ordered(axes)
-
-
-def _about_axes(points: Floats) -> list[Floats]:
-    """Turned about X, Y or Z so that the rectangle around the points, seen along that axis, is least."""
-    return [_ordered(axes) for axis in range(3) if (axes := _turned(points, axis)) is not None]
-
-
 def _turned(points: Floats, axis: int) -> Floats | None:
+    """Axes, turned about one of space so that the rectangle around the points, seen along that axis, is least."""
     others = [i for i in range(3) if i != axis]
     flat = points[:, others]
     try:

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-from shapewright.shapes import Floats
+from shapewright.shapes import Floats, Ints
 
-Ints = NDArray[np.int64]
 _SIDE = 0.08  # of a cell, least: a little more than the distances that are asked for
 _MOST = 32  # cells along an axis
 
@@ -41,9 +39,8 @@ class Cells:
 
         A plane stands for the surface up to ``spacing`` from its point.
         """
-        away = np.empty(len(points))
-        _measure(points, self.points, self.normals, self.starts, self.low, self.side, self.shape, spacing, most, away)
-        return away
+        cells = self.points, self.normals, self.starts, self.low, self.side, self.shape
+        return _distances(points, *cells, spacing, most)
 
 
 @njit(nogil=True, cache=True)
@@ -66,7 +63,7 @@ def _sorted(points: Floats, low: Floats, side: float, shape: Ints) -> tuple[Ints
 
 
 @njit(nogil=True, cache=True)
-def _measure(
+def _distances(
     asked: Floats,
     points: Floats,
     normals: Floats,
@@ -76,10 +73,9 @@ def _measure(
     shape: Ints,
     spacing: float,
     most: float,
-    away: Floats,
-) -> None:
+) -> Floats:
     """See ``Cells.distance``. A plane is nearer than its point by ``spacing`` at most: no point farther counts."""
-    reach = most + spacing
+    reach, away = most + spacing, np.empty(len(asked))
     first, last = np.empty(3, np.int64), np.empty(3, np.int64)
     for n in range(len(asked)):
         for axis in range(3):
@@ -104,3 +100,4 @@ def _measure(
                 above += (asked[n, axis] - points[nearest, axis]) * normals[nearest, axis]
             aside = max(math.sqrt(max(least - above * above, 0.0)) - spacing, 0.0)
             away[n] = min(math.hypot(above, aside), most)
+    return away

@@ -92,9 +92,8 @@ def outcome_of(
     """Search for each reference (by row) from the parameters given, and judge the replicas.
 
     budget: None to judge the parameters themselves, moved into the procedure's Ranges. turn: number of the search for
-    the same references, for other random points. enough: of the threshold, at
-    which a search ends. only: names of the scalars that it may change, by default all. sure: the name of a choice that
-    it keeps wherever it tries others.
+    the same references, for other random points. enough: of the threshold, at which a search ends. only: names of the
+    scalars that it may change, by default all. sure: the name of a choice that it keeps wherever it tries others.
     """
     space, rows = crew.procedure.space, list(starts)
     vectors = [space.carry(values) for values in starts.values()]

@@ -33,13 +33,10 @@ class Example:
 
 def card(examples: Sequence[Example], size: int = SIZE) -> bytes:
     """PNG: a row for each example with the marked reference, the replica before and the one after."""
-    columns = [
-        np.concatenate([_picture(row.reference, row.marked, size) for row in examples]),
-        np.concatenate([_picture(row.before, None, size) for row in examples]),
-        np.concatenate([_picture(row.after, None, size) for row in examples]),
-    ]
+    meshes = [[(row.reference, row.marked), (row.before, None), (row.after, None)] for row in examples]
+    rows = [np.concatenate([_picture(*shown, size) for shown in row], axis=1) for row in meshes]
     buffer = io.BytesIO()
-    Image.fromarray(np.concatenate(columns, axis=1)).save(buffer, "PNG", optimize=True)
+    Image.fromarray(np.concatenate(rows)).save(buffer, "PNG", optimize=True)
     return buffer.getvalue()
 
 

@@ -62,9 +62,8 @@ class Outcome:
     def joined(self, other: Outcome) -> Outcome:
         """The nearer of both replicas for each reference."""
         nearer = {row: other.replicas[row] for row in other.counted if other.distance(row) < self.distance(row)}
-        return replace(
-            self, replicas={**self.replicas, **nearer}, counted=tuple(dict.fromkeys([*self.counted, *nearer]))
-        )
+        counted = tuple(dict.fromkeys([*self.counted, *nearer]))
+        return replace(self, replicas={**self.replicas, **nearer}, counted=counted)
 
     def _counting(self, counts: Callable[[Replica], bool]) -> Outcome:
         return replace(self, counted=tuple(row for row in self.counted if counts(self.replicas[row])))
