@@ -1,8 +1,8 @@
 """The moves that a search is made of.
 
-Scan, Probe and Step build shapes, all references' at once. What a combination of choices is not ready for is made up
-for: one that was never measured is built with its scalars unchanged, one without a model is probed. One that is ahead
-of the move, because there were no other choices to switch to, takes steps instead.
+Scan, Probe and Step build shapes, for all references at once. A combination of choices may not be ready for a move.
+Then the missing work comes first: a combination that was never measured is built with its scalars unchanged, and one
+without a model is probed. A combination that has what the move would give takes steps instead.
 """
 
 from __future__ import annotations
