@@ -14,7 +14,7 @@ from itertools import accumulate, combinations, pairwise
 import numpy as np
 from manifold3d import Manifold, Mesh64
 
-from shapewright.modelling.solid.originals import given_ids, manifold_of, owners_of
+from shapewright.modelling.solid.originals import with_points
 from shapewright.shapes import Floats
 
 CLOSE, _OVERLAP = 1e-9, 1e-8
@@ -46,8 +46,7 @@ def aligned(manifolds: Sequence[Manifold], facing: int = -1, ids: bool = False) 
         return result
     for i, mesh, (start, end) in zip(touching, meshes, pairwise(ends), strict=True):
         if (moved[start:end] != points[start:end]).any():
-            face_ids = given_ids(mesh) if ids else None
-            result[i] = manifold_of(moved[start:end], mesh.tri_verts, owners_of(mesh), mesh.run_original_id, face_ids)
+            result[i] = with_points(mesh, moved[start:end], ids)
     return result
 
 

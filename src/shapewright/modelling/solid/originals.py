@@ -31,7 +31,7 @@ def manifold_of(
     ends = np.searchsorted(owners[order], np.arange(len(originals) + 1))
     return Manifold(
         Mesh64(
-            np.array(points, order="C"),  # a copy: manifold3d's own arrays are read-only, and it takes none such
+            np.array(points),  # a copy: manifold3d's own arrays are read-only, and it takes none such
             np.ascontiguousarray(faces[order], dtype=np.uint64),
             run_index=(3 * ends).astype(np.uint64),
             run_original_id=np.asarray(originals, dtype=np.uint32),
@@ -51,6 +51,19 @@ def given_ids(mesh: Mesh64) -> NDArray[np.uint64]:
     To a face without a given id manifold3d gives the index of a triangle of its plane.
     """
     return np.maximum(np.array(mesh.face_id, dtype=np.uint64), np.uint64(NO_ID))
+
+
+def with_points(mesh: Mesh64, points: Floats, ids: bool) -> Manifold:
+    """The manifold of a mesh with other coordinates. ids: whether faces were given ids."""
+    return Manifold(
+        Mesh64(
+            np.ascontiguousarray(points),
+            np.array(mesh.tri_verts),
+            run_index=np.array(mesh.run_index, dtype=np.uint64),
+            run_original_id=np.array(mesh.run_original_id, dtype=np.uint32),
+            face_id=given_ids(mesh) if ids else None,
+        )
+    )
 
 
 def rule_ids(mesh: Mesh, originals: Sequence[int]) -> tuple[dict[int, str], NDArray[np.uint64] | None]:
