@@ -19,7 +19,7 @@ from shapewright.shapes.files import svg
 SEED = 2023
 Random = np.random.Generator
 PICTURES = 4
-"""One in so many is written as PNG, the others as SVG."""
+"""One drawing in this many is written as PNG, the others as SVG."""
 
 
 def top(rng: Random, height: float, thick: float) -> Sketch:

@@ -34,7 +34,7 @@ Point: TypeAlias = Sequence[float] | Floats
 Axis: TypeAlias = Literal["x", "y"]
 ORIGIN = (0.0, 0.0)
 _GRID = -32  # corners are rounded to this power of two of the largest extent
-_MITRE = 5.0  # corners are pointed until their point would be so many half widths away
+_MITRE = 5.0  # a corner keeps its point up to this many half widths away
 
 
 @dataclass(frozen=True, slots=True, eq=False)

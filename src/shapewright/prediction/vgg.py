@@ -51,7 +51,7 @@ class VGG19Network(nn.Module):
 def find_weights(path: str | Path | None = None) -> Path | None:
     """The file of VGG19's ImageNet weights: the one named, or torchvision's download in torch's cache.
 
-    None, with a warning, when neither is there to be had. Raises ValueError when the named file is missing.
+    None, with a warning, when neither exists. Raises ValueError when the named file is missing.
     """
     if path is not None:
         named = Path(path).expanduser()

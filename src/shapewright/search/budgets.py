@@ -34,7 +34,7 @@ class Budget:
         return sum(isinstance(move, BuildingMove) for move in self.moves)
 
     def evaluations(self, scalars: int) -> int:
-        """Shapes built for each reference, at most, where so many scalars are free."""
+        """Shapes built for each reference, at most, where this many scalars are free."""
         return sum(evaluations(move, scalars) for move in self.moves)
 
     def within(self, most: float, scalars: int) -> Budget:

@@ -79,7 +79,7 @@ Move: TypeAlias = BuildingMove | SwitchChoices | Return | UseScale
 
 
 def evaluations(move: Move, scalars: int) -> int:
-    """Shapes that a move builds for each reference, at most, where so many scalars are free."""
+    """Shapes that a move builds for each reference, at most, where this many scalars are free."""
     match move:
         case Scan():
             return move.combinations

@@ -27,7 +27,7 @@ _Bars = tuple[float, Piece, NDArray[np.bool_]]
 
 
 def turns(count: int) -> list[float]:
-    """Degrees by which a bar along x is turned for so many of them to be symmetric, in all ways that differ."""
+    """Degrees that turn a bar along x, for this many bars to be symmetric, in all ways that differ."""
     ways: dict[float, float] = {}
     for turn in (-90.0, 90.0, 0.0, 180.0, 180.0 / count):
         ways.setdefault(round(turn % (360.0 / count), 6), turn)
@@ -71,7 +71,7 @@ def _bars(places: Floats, layer: NDArray[np.bool_]) -> _Bars | None:
 
 
 def _off(places: Floats, layer: NDArray[np.bool_], reach: Floats, count: int, turn: float) -> _Bars | None:
-    """The same for so many bars that reach to the ellipse with these half axes."""
+    """The same for this many bars that reach to the ellipse with these half axes."""
     x, z = places[:, 0] / reach[0], -places[:, 2] / reach[1]  # a turn about y takes x to -z
     distance, step = np.hypot(x, z), 2.0 * np.pi / count
     angle = np.arctan2(z, x) - np.radians(turn)

@@ -31,7 +31,7 @@ class Fit:
     anchors: tuple[float, float, float] = (0.5, 0.5, 0.5)  # per axis what coincides: lower sides at 0, upper ones at 1
 
     def transform(self, theirs: Floats, ours: Floats) -> Transform:
-        """The transform of ours, given both bounds, (2, 3)."""
+        """The transform of a replica with bounds ``ours``, (2, 3), onto a reference with bounds ``theirs``, (2, 3)."""
         extent, own = theirs[1] - theirs[0], np.maximum(ours[1] - ours[0], 1e-6)
         scale = 1.0 if self.axis is None else float(extent[self.axis] / own[self.axis])
         anchors = np.array(self.anchors)
