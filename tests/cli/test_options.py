@@ -15,7 +15,7 @@ from shapewright.cli.fits import fit
 from shapewright.cli.main import app
 from shapewright.cli.options import with_settings
 from shapewright.cli.projects import demo
-from shapewright.cli.samples import sample
+from shapewright.cli.shape_files import sample
 from shapewright.cli.studio import studio
 from shapewright.settings import Settings, described, groups
 

@@ -71,7 +71,7 @@ class WorkerProcess:
             raise answer.error()
 
     def _exchange(self, request: Any, patience: float, stop: threading.Event) -> Any:
-        """The worker's answer, or the failure that ended it; None after ``patience`` seconds of silence or at ``stop``."""
+        """The worker's answer, or why it ended; None after ``patience`` seconds of silence or at ``stop``."""
         answer: Any = COMPILING
         try:
             self.connection.send(request)

@@ -12,7 +12,7 @@ from shapewright.cli.evaluations import evaluate
 from shapewright.cli.fits import fit
 from shapewright.cli.projects import demo, new
 from shapewright.cli.runs import compare, explain, mark, report
-from shapewright.cli.samples import sample, silhouettes
+from shapewright.cli.shape_files import sample, silhouettes
 from shapewright.cli.studio import studio
 from shapewright.procedures import ProcedureError
 from shapewright.references.errors import CollectionError

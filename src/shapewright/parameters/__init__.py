@@ -13,7 +13,7 @@ from shapewright.parameters.kinds import (
     When,
 )
 from shapewright.parameters.prediction import Prediction
-from shapewright.parameters.record import from_record, to_record
+from shapewright.parameters.records import from_record, to_record
 from shapewright.parameters.space import End, Excess, ParameterSpace
 
 __all__ = [

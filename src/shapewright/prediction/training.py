@@ -18,7 +18,7 @@ from torch.optim import Adam, AdamW, Optimizer
 from torch.optim.lr_scheduler import ConstantLR, LRScheduler, OneCycleLR
 
 from shapewright.parameters import ParameterSpace
-from shapewright.prediction.cameras import LearnedCameras, camera_gradient
+from shapewright.prediction.camera_learning import LearnedCameras, camera_gradient
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.devices import autocast, pick, torch_threads
 from shapewright.prediction.inference import calibrate, outputs

@@ -10,7 +10,7 @@ from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
 from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.hypothesis import Hypothesis
 from shapewright.feedback.parts.attachment import separate
-from shapewright.feedback.writing.wording import Rule
+from shapewright.feedback.writing.rule_code import RuleDraft
 from shapewright.parameters import End, Parameters
 from shapewright.shapes import Mesh
 
@@ -62,7 +62,7 @@ class Proposal:
     ranges: Ranges  # wide ones to begin with
     starts: Mapping[int, Parameters]  # values of the new parameters by row of a misfit; others start at the medians
     worth: float  # how many references it may help, roughly
-    rule: Rule | None = None  # of a new or changed part; None for a wider Range
+    rule: RuleDraft | None = None  # of a new or changed part; None for a wider Range
     ends: tuple[End, ...] = ()  # of the Ranges that are wider
 
     def candidates(self, misfit: Misfit) -> list[Parameters]:

@@ -16,9 +16,9 @@ from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import WHOLE, Frames
 from shapewright.feedback.parts.supports import bounds_of
 from shapewright.feedback.writing.edit import with_rule
+from shapewright.feedback.writing.piece_code import noun
+from shapewright.feedback.writing.rule_code import RuleDraft, addition, drawing_in, removal, splaying
 from shapewright.feedback.writing.source import free_name
-from shapewright.feedback.writing.spelling import noun
-from shapewright.feedback.writing.wording import Rule, addition, drawing_in, removal, splaying
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.shapes import Floats, Mesh
 
@@ -151,7 +151,14 @@ def _labels(several: Sequence[Sequence[Piece]], removed: Sequence[str], members:
 
 
 def _proposal(
-    kind: str, title: str, source: str, procedure: str, rule: Rule, ranges: Ranges, members: Wanted, pieces: int = 1
+    kind: str,
+    title: str,
+    source: str,
+    procedure: str,
+    rule: RuleDraft,
+    ranges: Ranges,
+    members: Wanted,
+    pieces: int = 1,
 ) -> Proposal:
     starts: dict[int, Parameters] = {}
     worth = 0.0

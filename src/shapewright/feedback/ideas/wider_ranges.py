@@ -8,8 +8,8 @@ from functools import partial
 
 from shapewright.feedback.ideas.proposal import Interval, Misfit, Proposal, Ranges, listed
 from shapewright.feedback.writing.edit import with_range
+from shapewright.feedback.writing.piece_code import number
 from shapewright.feedback.writing.source import EditError
-from shapewright.feedback.writing.spelling import number
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
 
 # Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.

@@ -1,4 +1,4 @@
-"""From pieces that several misfits share to a rule in the author's own terms: a function, parameters with Ranges.
+"""The code of a rule, from pieces that several misfits share: a function, and parameters with Ranges.
 
 A rule says sizes and places relative to the bounding box of a part, or of the whole shape: the one that leaves the
 fewest quantities free. Free quantities become parameters.
@@ -15,11 +15,11 @@ import numpy as np
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import INNER, NEW, WHOLE, Frames, best_frame, inside_of, made_bounds
 from shapewright.feedback.writing.edit import NewParameter, NewRule
-from shapewright.feedback.writing.spelling import LINE, Quantity, kit_functions, noun, piece_lines, quoted
+from shapewright.feedback.writing.piece_code import LINE, Quantity, kit_functions, noun, piece_lines, quoted
 
 
 @dataclass(frozen=True)
-class Rule:
+class RuleDraft:
     """A change as code."""
 
     name: str  # of its function, or of its flag where it needs none
@@ -48,7 +48,7 @@ def addition(
     labels: Sequence[str],
     free: Callable[[str], str],
     note: str,
-) -> Rule:
+) -> RuleDraft:
     """A rule that puts pieces in, perhaps in place of parts.
 
     Args:
@@ -94,12 +94,12 @@ def addition(
         head = f"def {name}(\n    {arguments}\n):"
     text = "\n    ".join([head, f'"""{note}"""', *body])
     call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
-    return Rule(name, stem, text, call, tuple(quantities), kit_functions(body))
+    return RuleDraft(name, stem, text, call, tuple(quantities), kit_functions(body))
 
 
 def drawing_in(
     label: str, scales: Sequence[tuple[float, float]], frames: Sequence[Frames], free: Callable[[str], str], note: str
-) -> Rule:
+) -> RuleDraft:
     """A rule that draws a part in towards the middle, along x and z."""
     plain = _plain(label)
     quantities = _sideways(f"{plain}_inset", scales, free)
@@ -110,7 +110,7 @@ def drawing_in(
         f'"""{note}"""',
         f"return shape.without({quoted(label)}) | shape.part({quoted(label)}).scale(({x}, 1, {z}){_about(frames)})",
     ]
-    return Rule(name, None, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
+    return RuleDraft(name, None, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
 
 
 def splaying(
@@ -120,7 +120,7 @@ def splaying(
     everywhere: bool,
     free: Callable[[str], str],
     note: str,
-) -> Rule:
+) -> RuleDraft:
     """A rule that moves the low end of a part away from its middle. everywhere: whether all shapes have the part."""
     plain = _plain(label)
     quantities = _sideways(f"{plain}_splay", scales, free)
@@ -134,13 +134,13 @@ def splaying(
         f'return {rest} | shape.part({quoted(label)}).taper(({x}, {z}), "-y")',
     ]
     flag = free(f"{plain}_splayed") if removed else None
-    return Rule(name, flag, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
+    return RuleDraft(name, flag, "\n    ".join(lines), f"{name}({{shape}}, {x}, {z})", quantities, ())
 
 
-def removal(label: str, free: Callable[[str], str]) -> Rule:
+def removal(label: str, free: Callable[[str], str]) -> RuleDraft:
     """A rule that makes a part optional."""
     flag = free(f"with_{_plain(label)}")
-    return Rule(flag, flag, "", f"{{shape}}.without({quoted(label)})", (), ())
+    return RuleDraft(flag, flag, "", f"{{shape}}.without({quoted(label)})", (), ())
 
 
 def _sideways(name: str, scales: Sequence[tuple[float, float]], free: Callable[[str], str]) -> tuple[Quantity, ...]:

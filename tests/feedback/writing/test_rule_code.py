@@ -8,9 +8,9 @@ import shapewright as sw
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import WHOLE
 from shapewright.feedback.writing.edit import with_rule
+from shapewright.feedback.writing.piece_code import Quantity, number
+from shapewright.feedback.writing.rule_code import addition, drawing_in, removal, splaying
 from shapewright.feedback.writing.source import free_name
-from shapewright.feedback.writing.spelling import Quantity, number
-from shapewright.feedback.writing.wording import addition, drawing_in, removal, splaying
 
 TABLE = """from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""The lines of code that make one piece, in the author's own terms, and what is left free in them."""
+"""The code of one piece: its lines in the author's own terms, and what is left free in them."""
 
 from __future__ import annotations
 

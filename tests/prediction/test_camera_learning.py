@@ -8,7 +8,7 @@ import torch
 import shapewright as sw
 from shapewright import Range
 from shapewright.modelling.solids import box
-from shapewright.prediction.cameras import LearnedCameras, camera_gradient
+from shapewright.prediction.camera_learning import LearnedCameras, camera_gradient
 from shapewright.prediction.dataset import make_dataset
 from shapewright.prediction.network import CompactNetwork, loss
 from shapewright.prediction.training import Schedule, train_network
