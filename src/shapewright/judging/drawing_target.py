@@ -68,7 +68,7 @@ class DrawingTarget:
         return Measures(distance, intersection_over_union(self.shape, replica))
 
     def compatible(self, measures: Measures) -> bool:
-        return measures.distance <= self.metric.threshold
+        return self.metric.accepts(measures.distance)
 
     @classmethod
     def groups(cls, names: Sequence[str], targets: Sequence[DrawingTarget], settings: Settings) -> tuple[Group, ...]:

@@ -84,7 +84,7 @@ class MeshTarget:
         """By the metric where the settings have one, else by the threshold."""
         learned = self._settings.metric
         if learned is None:
-            return measures.distance <= self._settings.threshold
+            return self.metric.accepts(measures.distance)
         return is_same(learned, measures.distance, measures.iou, measures.depth)
 
     @classmethod

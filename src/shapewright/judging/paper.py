@@ -23,6 +23,10 @@ class Metric:
         """Of a run's record; the first versions compared meshes alone, and noted only the threshold."""
         return cls(**record["metric"]) if "metric" in record else light_field_metric(record["threshold"])
 
+    def accepts(self, distance: float | None) -> bool:
+        """Whether a reference at this distance is compatible; not where the distance is NaN or None."""
+        return distance is not None and distance <= self.threshold
+
 
 def light_field_metric(threshold: float) -> Metric:
     """The light-field distance of meshes (paper section 4.3)."""

@@ -88,6 +88,5 @@ class BenchLink:
     def _answered(self, page: int, message: LiveMessage | None, payload: bytes) -> None:
         if isinstance(message, DistanceMessage):
             metric, distance = self._display.board.metric, message.distance
-            within = distance is not None and distance <= metric.threshold
-            message = replace(message, colour=tint(distance, metric), compatible=within)
+            message = replace(message, colour=tint(distance, metric), compatible=metric.accepts(distance))
         self._pages.send(page, payload if message is None else message)

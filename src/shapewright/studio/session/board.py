@@ -80,8 +80,7 @@ class Board:
     def with_reference(self, slug: Slug, **changes: Any) -> Board:
         """With a reference changed; compatible follows the distance."""
         if "distance" in changes:
-            distance = changes["distance"]
-            changes["compatible"] = distance is not None and distance <= self.metric.threshold
+            changes["compatible"] = self.metric.accepts(changes["distance"])
         changed = replace(self.references[slug], **changes)
         return replace(self, references={**self.references, slug: changed})
 
