@@ -1,12 +1,14 @@
 """Pictures of references in the cache."""
 
+import os
+
 import pytest
 
 from broken_disk import full_after, hidden, shown
 from shapewright.modelling.solids import box
 from shapewright.shapes.files import encode
 from shapewright.studio.bench.gallery import Gallery
-from shapewright.studio.project.listing import Origin, listing
+from shapewright.studio.project.listing import Listing, Origin, listing
 
 
 def test_a_picture_is_kept_whole_or_not_at_all(tmp_path):
@@ -19,3 +21,14 @@ def test_a_picture_is_kept_whole_or_not_at_all(tmp_path):
     assert not shown(cache) and not hidden(cache)
     drawn = gallery.picture("cube")
     assert list(shown(cache).values()) == [drawn] and not hidden(cache)
+
+
+def test_a_gallery_removes_what_killed_writers_left_long_ago(tmp_path):
+    pictures = tmp_path / "cache" / "thumbnails"
+    pictures.mkdir(parents=True)
+    leftover, young = pictures / ".a.png.1234.partial", pictures / ".b.png.5678.partial"
+    leftover.touch()
+    young.touch()
+    os.utime(leftover, (0, 0))
+    Gallery(Listing({}, {}), tmp_path / "cache")
+    assert not leftover.exists() and young.exists()

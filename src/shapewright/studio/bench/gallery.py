@@ -10,8 +10,8 @@ from typing import Generic, TypeVar
 from shapewright.references.collection import Reference, read_reference
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.shapes import Mesh, Shape
-from shapewright.storage import write_file
-from shapewright.studio.project.listing import PICTURE, Listing, kept_picture
+from shapewright.storage import remove_leftovers, whole_file
+from shapewright.studio.project.listing import PICTURE, PICTURES, Listing, kept_picture
 
 Item = TypeVar("Item")
 _MEMORY = 32 * 2**20
@@ -49,6 +49,8 @@ class Gallery:
     def __init__(self, listed: Listing, cache: Path | None) -> None:
         self.listed = listed
         self._cache = cache
+        if cache:  # once, not with every picture: the folder holds those of all projects
+            remove_leftovers(cache / PICTURES)
         self._shelf: Shelf[Reference] = Shelf(_MEMORY, lambda reference: shape_bytes(reference.shape))
 
     def __getitem__(self, slug: str) -> Reference:
@@ -62,7 +64,8 @@ class Gallery:
         kept = kept_picture(self._cache, self.listed.sources[slug]) if self._cache else None
         if kept:
             kept.parent.mkdir(parents=True, exist_ok=True)
-            write_file(kept, drawn)
+            with whole_file(kept) as partial:
+                partial.write_bytes(drawn)
         return drawn
 
 

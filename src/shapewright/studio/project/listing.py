@@ -14,6 +14,7 @@ from shapewright.storage import file_names
 
 PICTURE = 256
 """Pixels of a reference's thumbnail."""
+PICTURES = "thumbnails"  # the folder in the cache
 _PICTURE_FORMAT = 1
 """Part of every cached picture's name; raise it whenever the same file would get another picture."""
 _OUTSIDE = "a link that leads out of the project folder; start the studio with --references to allow it"
@@ -61,4 +62,4 @@ def kept_picture(cache: Path, source: Source) -> Path | None:
         return None
     named = (source.path.resolve(), state.st_mtime_ns, state.st_size, source.orientation, PICTURE, _PICTURE_FORMAT)
     digest = hashlib.blake2b(repr(named).encode(), digest_size=16).hexdigest()
-    return cache / "thumbnails" / f"{digest}.png"
+    return cache / PICTURES / f"{digest}.png"
