@@ -92,6 +92,21 @@ def test_explain_needs_a_run(tmp_path):
         call("explain", tmp_path)
 
 
+def test_a_fit_keeps_its_run_when_the_explanation_fails(project, monkeypatch):
+    def fail(*_):
+        raise KeyError("no such label")
+
+    monkeypatch.setattr("shapewright.feedback.explanation.explain", fail)
+    monkeypatch.setenv("SHAPEWRIGHT_CACHE", str(project / "cache"))
+    run = project / "runs" / "002"
+    arguments = (project / "stool.py", project / "references", *QUICK, "--workers", 1, "--out", run)
+    with pytest.raises(
+        RunError, match=rf"no such label(.|\n)*the run is whole in {run}(.|\n)*shapewright explain {run}"
+    ):
+        call("fit", *arguments, "--explain")
+    assert (run / "iteration.json").is_file() and (run / "report.html").is_file()
+
+
 def test_marks_move_the_threshold(project):
     run = project / "runs" / "001"
     entries = json.loads((run / "iteration.json").read_text())["references"]

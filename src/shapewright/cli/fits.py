@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,7 +12,7 @@ from rich.markup import escape
 
 from shapewright.cli.console import err, interruptible, iteration_record, print_iteration, print_json
 from shapewright.cli.options import Front, Json, PresetOption, ProcedureArgument, Up, with_settings
-from shapewright.cli.runs import explanation_of, judged_by_marks
+from shapewright.cli.runs import explain_saved, judged_by_marks
 from shapewright.procedures import load_procedure
 from shapewright.runs.folder import RunError, check_free, check_writable, next_run, previous_run
 from shapewright.settings import Settings
@@ -73,28 +73,41 @@ def fit_and_save(
     previous: Iteration | None = None,
     explained: bool = False,
 ) -> tuple[Iteration, Path]:
-    """Run and save one iteration with its report, explained if wanted; returns it and the folder that it is in."""
+    """Run and save one iteration with its report, then explain it if wanted; returns it and the folder that it is in.
+
+    Raises RunError where it cannot be explained; the run is saved by then.
+    """
     from shapewright.fitting.fit import fit as iterate
 
     with interruptible("nothing of this run was written; earlier runs are as they were") as listen:
         iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
-        explain = explanation_of(procedure, references, iteration, listen) if explained else None
+    _save(iteration, folder)
+    if explained:
+        _explain(iteration, procedure, references, folder)
+    return iteration, folder
+
+
+def _save(iteration: Iteration, folder: Path) -> None:
+    """Save a run with its report; where its folder cannot be written, elsewhere, and RunError says where."""
+    from shapewright.report import write_report
+
+    previous = previous_run(folder, set(iteration.names))
     try:
-        return iteration, iteration.save(folder, _report(explain, previous_run(folder, set(iteration.names))))
+        iteration.save(folder, lambda partial: write_report(partial, previous))
     except RunError as error:
         refuge = next_run(Path(tempfile.gettempdir()) / "shapewright-runs")
         err.print(f"[red]{escape(str(error))}[/]\nsaving to {escape(str(refuge))} instead", highlight=False)
-        iteration.save(refuge, _report(explain, None))
+        iteration.save(refuge, lambda partial: write_report(partial, None))
         raise RunError(f"{error}\nThe run is whole in {refuge}; free some space and move it") from error
 
 
-def _report(explain: Callable[[Path], object] | None, previous: Path | None) -> Callable[[Path], None]:
-    """Writes the explanation, if there is one, and the report into the folder of a run."""
-    from shapewright.report import write_report
-
-    def write(folder: Path) -> None:
-        if explain:
-            explain(folder)
-        write_report(folder, previous)
-
-    return write
+def _explain(iteration: Iteration, procedure: Procedure, references: Collection, folder: Path) -> None:
+    """Explain a run that is saved; whatever goes wrong, the run stays whole, and the message says so."""
+    remains = f"the run is whole in {folder}; explain it with: shapewright explain {folder}"
+    try:
+        with interruptible(remains) as listen:
+            explain_saved(iteration, procedure, references, folder, listen)
+    except typer.Exit:
+        raise
+    except Exception as error:
+        raise RunError(f"the run could not be explained: {error}\nBut {remains}") from error

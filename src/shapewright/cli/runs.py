@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -43,8 +42,6 @@ def explain(
     json: Json = False,
 ) -> None:
     """Say where and why replicas differ from their references, and what to write next; renews the run's report."""
-    from shapewright.feedback.explanation import explain as explain_iteration
-    from shapewright.feedback.record import record_of, write
     from shapewright.runs.inputs import procedure_of, references_of
     from shapewright.runs.iteration import Iteration
 
@@ -52,8 +49,7 @@ def explain(
     iteration = Iteration.load(run)
     procedure, collection = procedure_of(run, iteration), references_of(iteration, references)
     with interruptible("the run is as it was") as listen:
-        explanation = explain_iteration(iteration, procedure, collection, listen, cache_folder(), suggestions, workers)
-    record = write(run, record_of(explanation), previous_run(run, set(iteration.names)))
+        record = explain_saved(iteration, procedure, collection, run, listen, suggestions, workers)
     if json:
         print_json({"run": str(run), "report": str(run / "report.html"), **record})
     else:
@@ -127,12 +123,18 @@ def _calibration(run: Path) -> Calibration:
     return calibrate([mark.measures for mark in marks], [mark.same for mark in marks])
 
 
-def explanation_of(
-    procedure: Procedure, references: Collection, iteration: Iteration, progress: Listener | None
-) -> Callable[[Path], object]:
-    """Explain an iteration that is not saved yet; what is returned writes that into its folder."""
+def explain_saved(
+    iteration: Iteration,
+    procedure: Procedure,
+    references: Collection,
+    run: Path,
+    progress: Listener | None,
+    suggestions: bool = True,
+    workers: int | None = None,
+) -> dict[str, Any]:
+    """Explain an iteration that is saved in a folder, and put that into the folder; returns the record."""
     from shapewright.feedback.explanation import explain as explain_iteration
-    from shapewright.feedback.record import record_of, write_into
+    from shapewright.feedback.record import record_of, write
 
-    record = record_of(explain_iteration(iteration, procedure, references, progress, cache_folder()))
-    return lambda folder: write_into(folder, record)
+    explanation = explain_iteration(iteration, procedure, references, progress, cache_folder(), suggestions, workers)
+    return write(run, record_of(explanation), previous_run(run, set(iteration.names)))
