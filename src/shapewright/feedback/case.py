@@ -6,10 +6,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from shapewright.feedback.surfaces.areas import Areas
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import Residuals
 from shapewright.parameters import Parameters
-from shapewright.shapes import Mesh
+from shapewright.shapes import Drawing, Mesh, Shape
 
 CauseKind = Literal[
     "out of range", "badly predicted", "wrong choice", "missing part", "surplus part", "wrong form", "not such a shape"
@@ -22,9 +23,15 @@ class Replica:
 
     row: int  # index of the reference in its collection
     parameters: Parameters  # those that make the shape; they may lie outside the Ranges of the space
-    mesh: Mesh
-    distance: float  # light field distance to the reference, 0 and up
+    shape: Shape
+    distance: float  # to the reference, 0 and up: the light field distance; of drawings the share that lies apart
     field: int = 0  # index of the light field in which the two differ least: a search goes by it
+
+    @property
+    def mesh(self) -> Mesh:
+        """The shape, where it is one of a mesh's replicas."""
+        assert isinstance(self.shape, Mesh)
+        return self.shape
 
 
 @dataclass(frozen=True)
@@ -67,6 +74,27 @@ class Case:
         return cls(
             name, replica.row, reference, compatible, replica, residuals, here, replica, replica, residuals, replica
         )
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnCase:
+    """One drawing, and what is known about it. Distances of its replicas are shares of both areas that lie apart."""
+
+    name: str  # of the reference
+    row: int  # its index in the collection
+    reference: Drawing
+    replicated: bool  # whether the iteration's judge says so
+    replica: Replica  # the iteration's
+    nearest: Replica  # the nearest one within the space
+    outside: Replica  # the nearest one with longer Ranges
+    residuals: Areas  # where the iteration's replica differs from the reference
+    covering_residuals: Areas  # where the nearest one within the space does
+    causes: tuple[Cause, ...] = ()  # the chief cause first
+
+    @classmethod
+    def of(cls, name: str, reference: Drawing, replicated: bool, replica: Replica, residuals: Areas) -> DrawnCase:
+        """A case that knows the iteration's replica only. residuals: of that replica."""
+        return cls(name, replica.row, reference, replicated, replica, replica, replica, residuals, residuals)
 
 
 def updated(cases: Iterable[Case], newer: Iterable[Case]) -> list[Case]:

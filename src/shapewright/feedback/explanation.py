@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
-from shapewright.building import Workers
-from shapewright.feedback.case import Case, Replica
+from shapewright.building import Build, Workers
+from shapewright.feedback.case import Case, DrawnCase, Replica
 from shapewright.feedback.causes.causes import causes
+from shapewright.feedback.causes.drawn_cases import drawn_causes, in_place
 from shapewright.feedback.causes.shared import SharedCause, shared_causes
 from shapewright.feedback.suggestions import Suggestion, suggestions
+from shapewright.feedback.surfaces.areas import areas
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.judging.judge import Judge
@@ -21,7 +23,7 @@ from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
 from shapewright.runs.inputs import references_of
 from shapewright.runs.iteration import Iteration
-from shapewright.shapes import Mesh
+from shapewright.shapes import Drawing, Mesh
 from shapewright.threads import in_threads
 
 
@@ -29,7 +31,7 @@ from shapewright.threads import in_threads
 class Explanation:
     """Everything that is said about an iteration."""
 
-    references: Mapping[str, Case]  # the case of each reference that has a replica, by its name
+    references: Mapping[str, Case | DrawnCase]  # the case of each reference that has a replica, by its name
     summary: tuple[SharedCause, ...]  # the causes that references share, the one that most share first
     suggestions: tuple[Suggestion, ...] = ()  # what to write next, the largest gain first
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
@@ -58,17 +60,18 @@ def explain(
     Raises:
         RunError: the references are to be loaded, but were made in memory or are not where they were.
         KeyError: the collection lacks a reference of the iteration.
-        ValueError: it is a collection of drawings.
     """
     references = references or references_of(iteration)
-    if references.kind is not Mesh:
-        raise ValueError("only collections of meshes can be explained so far, not drawings")
     settings = replace(iteration.settings, workers=workers or iteration.settings.workers)
     collection = _collection(references, iteration)
     stages = Stages(progress)
     with Workers.of(procedure, settings) as crew:
         stages.begin("describe", len(collection))
         judge = Judge.of(collection, settings, cache)
+        if references.kind is Drawing:
+            drawings = _drawings(iteration, crew, in_place(judge), stages)
+            stages.end()
+            return _explanation(procedure, drawings, (), stages)
         stages.begin("differences", 3)
         cases = _cases(iteration, crew, judge)
         stages.begin("causes", 4)
@@ -76,6 +79,12 @@ def explain(
         unsolved = [case for case in cases if case.nearest.distance > settings.threshold]
         changes = suggestions(procedure, unsolved, crew, judge, stages) if suggest else ()
         stages.end()
+    return _explanation(procedure, cases, changes, stages)
+
+
+def _explanation(
+    procedure: Procedure, cases: Sequence[Case] | Sequence[DrawnCase], changes: tuple[Suggestion, ...], stages: Stages
+) -> Explanation:
     shared = tuple(shared_causes(procedure.space, cases))
     return Explanation({case.name: case for case in cases}, shared, changes, stages.seconds)
 
@@ -88,16 +97,11 @@ def _collection(references: Collection, iteration: Iteration) -> Collection:
 
 
 def _cases(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]:
-    """A case for each reference whose replica can be built and measured.
-
-    Replicas are built again: the files of a run keep them in single precision.
-    """
-    results, names = iteration.results, crew.procedure.space.names
-    known = {row: r.parameters for row, r in enumerate(results) if r.replica is not None and r.parameters}
-    builds = crew.build([{name: values[name] for name in names} for values in known.values()], give_up=True)
+    """A case for each reference whose replica can be built and measured."""
+    results = iteration.results
     replicas = [
         Replica(row, build.parameters, build.shape, results[row].distance)
-        for row, build in zip(known, builds, strict=True)
+        for row, build in _built(iteration, crew)
         if isinstance(build.shape, Mesh) and np.isfinite(results[row].distance)
     ]
 
@@ -108,3 +112,27 @@ def _cases(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]:
         return Case.of(result.name, reference, result.compatible, replica, where)
 
     return in_threads(case, replicas, judge.settings.workers)
+
+
+def _drawings(iteration: Iteration, crew: Workers, judge: Judge, stages: Stages) -> list[DrawnCase]:
+    """The same of drawings, with their causes. judge: ``in_place``."""
+    stages.begin("differences", 3)
+    built = [(row, build) for row, build in _built(iteration, crew) if isinstance(build.shape, Drawing)]
+    apart = judge.distances([build for _, build in built], [row for row, _ in built])
+    cases = []
+    for (row, build), distance in zip(built, apart.tolist(), strict=True):
+        result, reference = iteration.results[row], judge.references.references[row].shape
+        if isinstance(reference, Drawing) and isinstance(build.shape, Drawing) and np.isfinite(distance):
+            replica = Replica(row, build.parameters, build.shape, distance)
+            where = areas(reference, build.shape)
+            cases.append(DrawnCase.of(result.name, reference, result.compatible, replica, where))
+    stages.begin("causes", 4)
+    return drawn_causes(cases, iteration.predictor, crew, judge, stages)
+
+
+def _built(iteration: Iteration, crew: Workers) -> list[tuple[int, Build]]:
+    """The iteration's replicas with the rows of their references, built again: files keep them in single precision."""
+    names = crew.procedure.space.names
+    known = {row: r.parameters for row, r in enumerate(iteration) if r.replica is not None and r.parameters}
+    builds = crew.build([{name: values[name] for name in names} for values in known.values()], give_up=True)
+    return list(zip(known, builds, strict=True))

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from shapewright.feedback.case import Case
+from shapewright.feedback.case import Case, DrawnCase
 from shapewright.feedback.causes.shared import SharedCause
 from shapewright.feedback.explanation import Explanation
 from shapewright.feedback.suggestions import Suggestion
@@ -69,20 +69,23 @@ def write(run: Path, record: Mapping[str, Any], previous: Path | None = None) ->
     return written
 
 
-def _case(case: Case) -> dict[str, Any]:
+def _case(case: Case | DrawnCase) -> dict[str, Any]:
     """Its regions are what of the reference no parameters account for, and what of the iteration's replica is too much.
 
-    The weightiest come first. The placement takes the replica's own normalised units to the reference's.
+    The weightiest come first. The placement takes the replica's own normalised units to the reference's; drawings are
+    compared in place.
     """
-    own, placed = case.replica.mesh.normalisation(), case.residuals.placement
+    placement = {"centre": [0.0, 0.0, 0.0], "scale": 1.0}
+    if isinstance(case, Case):
+        own, placed = case.replica.mesh.normalisation(), case.residuals.placement
+        centre = (np.array(placed.centre) - own.centre) * own.scale
+        placement = {"centre": _rounded(centre), "scale": round(placed.scale / own.scale, 5)}
     regions = [*case.covering_residuals.of("unexplained"), *case.residuals.of("surplus")]
     return {
         "causes": [{"kind": c.kind, "text": c.text, "evidence": dict(c.evidence)} for c in case.causes],
         "regions": [_region(region) for region in sorted(regions, key=lambda region: -region.weight)],
-        "placement": {
-            "centre": _rounded((np.array(placed.centre) - own.centre) * own.scale),
-            "scale": round(placed.scale / own.scale, 5),
-        },
+        "placement": placement,
+        "dimensions": case.residuals.dimensions,
     }
 
 

@@ -25,6 +25,8 @@ STEP = 0.012
 """Edges are drawn where one part stands in front of another by more than this, in units of the largest extent."""
 _DARKEST, _INK = 0.42, 0.4
 """The darkest grey, off black, so that a tint over it keeps its hue; and edges, as a part of their surroundings."""
+DRAWN = 0.75
+"""Part of the side of a thumbnail that the page of a drawing takes; around it is a margin."""
 _GREYS = 32  # fewer greys make smaller files, and nobody can tell 32 from 256 on flat faces
 _PLAIN = 150  # the grey of drawings, of 255: light enough for a tint over it to show
 
@@ -47,8 +49,8 @@ def thumbnails(shapes: Sequence[Shape], size: int = 256, threads: int | None = N
 
 
 def _plain(drawing: Drawing, size: int) -> NDArray[np.uint8]:
-    """One grey, light enough for a tint over it to show, inside a margin of an eighth."""
-    inner = size * 3 // 4
+    """One grey, light enough for a tint over it to show, on a page inside a margin."""
+    inner = int(size * DRAWN)
     start = (size - inner) // 2
     alpha = np.pad(ink.picture(drawing, inner, SUPERSAMPLE)[0], (start, size - inner - start))
     return np.stack([np.full_like(alpha, _PLAIN), alpha], axis=-1)

@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from shapewright.rendering.cameras import THUMBNAIL
+from shapewright.rendering.ink import HALF
+from shapewright.rendering.thumbnails import DRAWN
 from shapewright.runs.folder import EXPLANATION, read_json
 from shapewright.shapes import Floats
 
@@ -46,7 +48,7 @@ def outlines(reference: Mapping[str, Any]) -> tuple[list[str], list[str]]:
         corners = _corners(region)
         if region["side"] == "surplus":
             corners = corners / scale + centre
-        on[region["side"]].append(_path(corners))
+        on[region["side"]].append(_frame(corners) if reference.get("dimensions") == 2 else _path(corners))
     return on["unexplained"], on["surplus"]
 
 
@@ -60,3 +62,10 @@ def _path(corners: Floats) -> str:
     """The edges of a box as an SVG path."""
     column, row, _ = THUMBNAIL.project(corners, 100)
     return "".join(f"M{column[a]:.1f} {row[a]:.1f}L{column[b]:.1f} {row[b]:.1f}" for a, b in _EDGES)
+
+
+def _frame(corners: Floats) -> str:
+    """The box around a region of a drawing as an SVG path, on a thumbnail of it."""
+    places = corners[:, :2] * [1.0, -1.0] * DRAWN / (2.0 * HALF) + 0.5
+    low, high = places.min(axis=0) * 100.0, places.max(axis=0) * 100.0
+    return f"M{low[0]:.1f} {low[1]:.1f}H{high[0]:.1f}V{high[1]:.1f}H{low[0]:.1f}Z"

@@ -14,14 +14,15 @@ from shapewright.building import Build, Workers
 from shapewright.feedback.case import Case, Replica
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.judging.judge import Judge
-from shapewright.parameters import Parameters, Prediction, Scalar
+from shapewright.parameters import Parameters, ParameterSpace, Prediction, Scalar
 from shapewright.prediction.lookup import nearest
+from shapewright.prediction.predictor import Predictor
 from shapewright.rendering.raster import render
 from shapewright.search.budgets import Budget
 from shapewright.search.moves import Probe, Scan, Step
 from shapewright.search.objective import Criterion, measure_of
 from shapewright.search.search import SearchStart, refine
-from shapewright.shapes import Mesh
+from shapewright.shapes import Mesh, Shape
 
 _RIVAL = 1.25  # of the best combination's cost
 NEAREST = Budget((Scan(8), Probe(2, rival=_RIVAL), *(Step(1, scatter=5),) * 12), patience=1, spread=0.15)
@@ -37,6 +38,7 @@ EVALUATIONS = 3_600
 """Shapes built for all references together, about: with 6,000 the causes were no better (docs/benchmarks.md)."""
 ENOUGH = 0.9
 """Of the threshold. In the pose that both share, distances are upper bounds of what is judged."""
+_UNSURE = 0.3  # probability of another class than the known one, where no predictor is known
 _NEAREST_SHARE, _COVERING_SHARE = 0.45, 0.55  # of EVALUATIONS
 
 
@@ -46,7 +48,7 @@ def measured(asked: Sequence[tuple[int, Parameters]], crew: Workers, judge: Judg
     rows = [row for row, _ in asked]
     return [
         Replica(row, build.parameters, build.shape, float(distance), int(field))
-        if isinstance(build.shape, Mesh) and not np.isnan(distance)
+        if build.shape is not None and not np.isnan(distance)
         else None
         for row, build, distance, field in zip(rows, builds, *judge.nearest(builds, rows), strict=True)
     ]
@@ -54,7 +56,7 @@ def measured(asked: Sequence[tuple[int, Parameters]], crew: Workers, judge: Judg
 
 def with_fields(replicas: Sequence[Replica], judge: Judge) -> list[Replica]:
     """The same, with their light fields."""
-    builds = [Build(replica.parameters, replica.mesh) for replica in replicas]
+    builds = [Build(replica.parameters, replica.shape) for replica in replicas]
     fields = judge.nearest(builds, [replica.row for replica in replicas])[1]
     return [replace(replica, field=int(field)) for replica, field in zip(replicas, fields, strict=True)]
 
@@ -132,6 +134,16 @@ def as_near_as(share: float, known: Sequence[Replica], judge: Judge) -> Criterio
 def affordable(budget: Budget, share: float, references: int, crew: Workers) -> Budget:
     """What each reference's part of a share of all evaluations pays for."""
     return budget.within(share * EVALUATIONS / max(references, 1), int(crew.procedure.space.scalars.sum()))
+
+
+def prediction_of(
+    space: ParameterSpace, predictor: Predictor | None, known: Sequence[Replica], shapes: Sequence[Shape]
+) -> Prediction:
+    """What the predictor says of references, or what is known of them, not quite sure of its choices, without one."""
+    if predictor and [(p.name, p.classes) for p in predictor.space] == [(p.name, p.classes) for p in space]:
+        # A predictor that was saved has lost each ``when`` of its space.
+        return replace(predictor.infer(shapes), space=space)
+    return Prediction.of(space, [replica.parameters for replica in known], doubt=_UNSURE)
 
 
 def _starts(known: Sequence[Replica], overlays: Sequence[Overlay], crew: Workers, judge: Judge) -> list[Parameters]:

@@ -11,6 +11,7 @@ from shapewright.feedback.case import Case, updated
 from shapewright.feedback.causes.better_replicas import (
     covering_replicas,
     nearest_replicas,
+    prediction_of,
     with_choices_kept,
     with_fields,
 )
@@ -22,12 +23,9 @@ from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.judging.judge import Judge
 from shapewright.judging.mesh_target import MeshTarget
-from shapewright.parameters import ParameterSpace, Prediction
 from shapewright.prediction.predictor import Predictor
 from shapewright.progress import Stages
 from shapewright.threads import in_threads
-
-_UNSURE = 0.3  # probability of another class than the iteration's, where no predictor is known
 
 
 def causes(
@@ -54,7 +52,7 @@ def _searched(
     space, threshold, threads = crew.procedure.space, judge.settings.threshold, judge.settings.workers
     known = with_fields([case.replica for case in misfits], judge)
     overlays = in_threads(lambda case: Overlay(case.residuals.reference, case.replica.mesh), misfits, threads)
-    prediction = _prediction(space, predictor, misfits)
+    prediction = prediction_of(space, predictor, known, [case.reference for case in misfits])
     covering = covering_replicas(known, overlays, prediction, crew, judge)
     misfits = [
         replace(case, replica=old, overlay=overlay, covering=new, nearest=min(old, new, key=attrgetter("distance")))
@@ -86,11 +84,3 @@ def _compared(misfits: Sequence[Case], judge: Judge) -> list[Case]:
         replace(case, covering_residuals=where, isolation=float(alone[case.row]) if unlike[case.row] else None)
         for case, where in zip(misfits, fresh, strict=True)
     ]
-
-
-def _prediction(space: ParameterSpace, predictor: Predictor | None, cases: Sequence[Case]) -> Prediction:
-    """What the predictor says, or the iteration's parameters, not quite sure of their choices, where none is known."""
-    if predictor and [(p.name, p.classes) for p in predictor.space] == [(p.name, p.classes) for p in space]:
-        # A predictor that was saved has lost each ``when`` of its space.
-        return replace(predictor.infer([case.reference for case in cases]), space=space)
-    return Prediction.of(space, [case.replica.parameters for case in cases], doubt=_UNSURE)

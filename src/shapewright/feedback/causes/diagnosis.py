@@ -30,17 +30,17 @@ def diagnosed(space: ParameterSpace, threshold: float, case: Case) -> tuple[Caus
     parts = part_causes(case.covering_residuals)
     lacking = parts[0].kind != "wrong form" and parts[0].weight > _LACKING
     if case.nearest.distance <= threshold:
-        overlooked = _overlooked(space, case.replica, case.nearest)
+        better = overlooked(space, case.replica, case.nearest)
         barely = case.nearest.distance > _BARELY * threshold
-        return (*parts, overlooked) if barely and lacking else (overlooked,)
-    ranges = _ranges(space, threshold, case.nearest, case.outside)
-    if ranges and case.outside.distance <= threshold and _together(case, threshold):
-        return ranges
+        return (*parts, better) if barely and lacking else (better,)
+    wishes = too_short(space, threshold, case.nearest, case.outside)
+    if wishes and case.outside.distance <= threshold and _together(case, threshold):
+        return wishes
     if case.isolation is not None and case.nearest.distance > _FAR * threshold:
         away = f"the nearest are {case.isolation:.2f} away; perhaps it does not belong here"
         text = f"unlike all other references: {away}"
-        return (Cause("not such a shape", text, {"isolation": case.isolation}), *parts, *ranges)
-    return (*parts, *ranges)
+        return (Cause("not such a shape", text, {"isolation": case.isolation}), *parts, *wishes)
+    return (*parts, *wishes)
 
 
 def or_leaning(case: Case, lean: Leaning | None) -> Case:
@@ -69,7 +69,8 @@ def _leans(lean: Leaning, before: float) -> Cause:
     return Cause("wrong form", f"{text}; {lean.apart / before:.0%} of what lies apart is left", evidence, lean.label)
 
 
-def _overlooked(space: ParameterSpace, before: Replica, better: Replica) -> Cause:
+def overlooked(space: ParameterSpace, before: Replica, better: Replica, measure: str = "distance") -> Cause:
+    """The cause where a search within the space finds a better replica. measure: what falls, in words."""
     changed = [
         (p.name, before.parameters[p.name], better.parameters[p.name])
         for p in space
@@ -83,21 +84,24 @@ def _overlooked(space: ParameterSpace, before: Replica, better: Replica) -> Caus
         "before": before.distance,
         "changed": [{"parameter": name, "was": was, "is": value} for name, was, value in changed],
     }
-    fell = f"the distance falls from {before.distance:.3f} to {better.distance:.3f}"
+    fell = f"the {measure} falls from {before.distance:.3f} to {better.distance:.3f}"
     if changed:
         how = ", ".join(f"{name} is {_word(value)}, not {_word(was)}" for name, was, value in changed)
         return Cause("wrong choice", f"{how}: {fell}", evidence)
     return Cause("badly predicted", f"a longer search finds better parameters: {fell}", evidence)
 
 
-def _ranges(space: ParameterSpace, threshold: float, inside: Replica, outside: Replica) -> tuple[Cause, ...]:
+def too_short(
+    space: ParameterSpace, threshold: float, inside: Replica, outside: Replica, measure: str = "distance"
+) -> tuple[Cause, ...]:
+    """The cause where longer Ranges help, none where they do not. measure: what falls, in words."""
     excesses = space.outside(outside.parameters)
     enough = outside.distance <= threshold
     if not excesses or not (enough or outside.distance < (1.0 - _HELPS) * inside.distance):
         return ()
     verbs = {"low": "starts", "high": "ends"}
     how = ", ".join(f"{e.parameter} at {e.value:.3g}, Range {verbs[e.side]} at {e.end:.4g}" for e in excesses)
-    after = f"the distance would be {outside.distance:.2f} instead of {inside.distance:.2f}"
+    after = f"the {measure} would be {outside.distance:.2f} instead of {inside.distance:.2f}"
     evidence = {
         "wishes": [{"parameter": e.parameter, "value": e.value, "end": e.end, "side": e.side} for e in excesses],
         "parameters": outside.parameters,

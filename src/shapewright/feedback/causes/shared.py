@@ -9,7 +9,8 @@ import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from shapewright.comparison.grouping import group
-from shapewright.feedback.case import Case, CauseKind
+from shapewright.feedback.case import Case, CauseKind, DrawnCase
+from shapewright.feedback.surfaces.areas import Areas
 from shapewright.feedback.surfaces.residuals import RegionSide, Residuals
 from shapewright.parameters import Excess, ParameterSpace, Side
 from shapewright.shapes import Floats
@@ -32,13 +33,13 @@ class SharedCause:
     outside: Excess | None = None  # of a Range: the parameter, the value of the representative and the end of the Range
 
 
-def shared_causes(space: ParameterSpace, cases: Sequence[Case]) -> list[SharedCause]:
+def shared_causes(space: ParameterSpace, cases: Sequence[Case | DrawnCase]) -> list[SharedCause]:
     """The chief causes of cases, the one that most references share first.
 
     References whose chief cause lies in the parts of the shape are grouped by where the surfaces differ as well; a
     reference that several Ranges are too short for is in several groups.
     """
-    kinds: dict[CauseKind, list[Case]] = {}
+    kinds: dict[CauseKind, list[Case | DrawnCase]] = {}
     for case in cases:
         if case.causes:
             kinds.setdefault(case.causes[0].kind, []).append(case)
@@ -47,14 +48,14 @@ def shared_causes(space: ParameterSpace, cases: Sequence[Case]) -> list[SharedCa
     return sorted([*too_short, *others], key=lambda entry: -len(entry.references))
 
 
-def signature(residuals: Residuals) -> Floats:
+def signature(residuals: Residuals | Areas) -> Floats:
     """Where two surfaces differ, as a unit vector: shares of both sides' regions in blurred cells; 0 without any."""
     vector = np.concatenate([_filled(residuals, side).ravel() for side in ("unexplained", "surplus")])
     length = float(np.linalg.norm(vector))
     return vector / length if length > 0.0 else vector
 
 
-def _filled(residuals: Residuals, side: RegionSide) -> Floats:
+def _filled(residuals: Residuals | Areas, side: RegionSide) -> Floats:
     cells = np.zeros((_CELLS,) * 3)
     for region in residuals.of(side):
         places = np.clip(((region.points + _HALF) / (2.0 * _HALF) * _CELLS).astype(int), 0, _CELLS - 1)
@@ -62,7 +63,7 @@ def _filled(residuals: Residuals, side: RegionSide) -> Floats:
     return np.asarray(gaussian_filter(cells, _BLUR))
 
 
-def _of_kind(kind: CauseKind, cases: Sequence[Case]) -> list[SharedCause]:
+def _of_kind(kind: CauseKind, cases: Sequence[Case | DrawnCase]) -> list[SharedCause]:
     names = [case.name for case in cases]
     if kind not in _STRUCTURE:
         return [_shared(kind, None, names, names[0])]
@@ -79,7 +80,7 @@ def _shared(kind: CauseKind, label: str | None, names: Sequence[str], representa
     return SharedCause(kind, text, tuple(names), representative)
 
 
-def _ranges(space: ParameterSpace, cases: Sequence[Case]) -> list[SharedCause]:
+def _ranges(space: ParameterSpace, cases: Sequence[Case | DrawnCase]) -> list[SharedCause]:
     outside: dict[tuple[str, Side], dict[str, Excess]] = {}
     for case in cases:
         for excess in space.outside(case.outside.parameters):

@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from shapewright.feedback.case import Cause
+from shapewright.feedback.surfaces.areas import Areas
 from shapewright.feedback.surfaces.residuals import Region, Residuals, pieces
 from shapewright.shapes import Floats
 
@@ -22,9 +23,15 @@ _LESSER = 0.5  # of a surplus part where something is unexplained: it stands in 
 _MINOR = 0.3  # of the weightiest difference: below it is left out
 
 
-def part_causes(residuals: Residuals) -> tuple[Cause, ...]:
-    """What is different in the parts of a shape, the weightiest first; at least one, also where nothing stands out."""
-    whole = _whole_parts(residuals)
+def part_causes(residuals: Residuals | Areas) -> tuple[Cause, ...]:
+    """What is different in the parts of a shape, the weightiest first; at least one, also where nothing stands out.
+
+    A drawing has no parts: what of the replica lies as far apart as a missing part is too much.
+    """
+    if isinstance(residuals, Residuals):
+        whole = _whole_parts(residuals)
+    else:
+        whole = {id(region) for region in residuals.of("surplus") if region.distance > _APART}
     moved = _moved(residuals)
     sorted_out: dict[PartCause, list[Region]] = {"missing part": [], "surplus part": [], "wrong form": []}
     for region in residuals:
@@ -38,12 +45,12 @@ def part_causes(residuals: Residuals) -> tuple[Cause, ...]:
     weights = {kind: sum(region.weight for region in regions) for kind, regions in sorted_out.items()}
     most = max(weights.values())
     if most == 0.0:
-        text = "no part of the surface stands out; the difference is in small detail all over"
+        text = f"no part of the {residuals.measured} stands out; the difference is in small detail all over"
         return (Cause("wrong form", text, {"regions": 0, "share": 0.0}),)
     unexplained = sum(region.weight for region in residuals.of("unexplained"))
     weights["surplus part"] *= 1.0 if unexplained < _MINOR * most else _LESSER
     kinds = [kind for kind in sorted(weights, key=lambda kind: -weights[kind]) if weights[kind] >= _MINOR * most]
-    return tuple(_cause(kind, sorted_out[kind], weights[kind]) for kind in kinds)
+    return tuple(_cause(kind, sorted_out[kind], weights[kind], residuals) for kind in kinds)
 
 
 def _whole_parts(residuals: Residuals) -> set[int]:
@@ -54,7 +61,7 @@ def _whole_parts(residuals: Residuals) -> set[int]:
     return {id(region) for region in surplus if any(np.isin(rows, region.rows).mean() > _WHOLE for rows in rows_of)}
 
 
-def _moved(residuals: Residuals) -> set[int]:
+def _moved(residuals: Residuals | Areas) -> set[int]:
     """Regions (ids) of both sides that are the same part in two places: like boxes, not far from each other."""
     ids: set[int] = set()
     free = list(residuals.of("surplus"))
@@ -73,20 +80,20 @@ def _alike(a: Floats, b: Floats) -> bool:
     return bool(np.maximum(ratio, 1.0 / ratio).max() < _ALIKE)
 
 
-def _cause(kind: PartCause, regions: list[Region], weight: float) -> Cause:
+def _cause(kind: PartCause, regions: list[Region], weight: float, residuals: Residuals | Areas) -> Cause:
     share = {side: sum(r.share for r in regions if r.side == side) for side in ("unexplained", "surplus")}
-    chief = max(regions, key=lambda region: region.weight)
+    chief, of = max(regions, key=lambda region: region.weight), residuals.measured
     near = f" near {chief.label}" if chief.label else ""
-    size = " x ".join(f"{side:.2f}" for side in chief.box.size)
+    size = " x ".join(f"{side:.2f}" for side in chief.box.size[: residuals.dimensions])
     more = f" and {len(regions) - 1} more" if len(regions) > 1 else ""
     match kind:
         case "missing part":
-            text = f"a part is missing{near}: {size}{more}, {share['unexplained']:.0%} of the reference's surface"
+            text = f"a part is missing{near}: {size}{more}, {share['unexplained']:.0%} of the reference's {of}"
         case "surplus part":
             what = chief.label or "a part"
-            text = f"{what} is too much: {size}{more}, {share['surplus']:.0%} of the replica's surface"
+            text = f"{what} is too much: {size}{more}, {share['surplus']:.0%} of the replica's {of}"
         case "wrong form":
-            shares = " and ".join(f"{value:.0%} of the surface {side}" for side, value in share.items() if value > 0.0)
+            shares = " and ".join(f"{value:.0%} of the {of} {side}" for side, value in share.items() if value > 0.0)
             text = f"another form{' of ' + chief.label if chief.label else ''}: {size}{more}, {shares}"
     evidence = {
         "regions": len(regions),

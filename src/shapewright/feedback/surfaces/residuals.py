@@ -53,6 +53,7 @@ class Region:
 class Residuals:
     """How far two surfaces are from each other, and where."""
 
+    measured, dimensions = "surface", 3
     regions: tuple[Region, ...]  # the weightiest first
     placement: Transform  # takes units of the replica's mesh to the frame of the normalised reference
     mesh: Mesh  # the replica as it was given
