@@ -28,6 +28,7 @@ from shapewright.feedback.case import Replica
 from shapewright.feedback.causes.better_replicas import NEAREST, measured, nearest_replicas
 from shapewright.feedback.explanation import explain
 from shapewright.judging.judge import Judge
+from shapewright.judging.target import Measures
 from shapewright.modelling.solids import Solid, box, cylinder, sphere
 from shapewright.parameters import Parameters, Prediction
 from shapewright.runs.result import Result
@@ -183,9 +184,8 @@ def made(
             active=space.active(found.parameters),
             at_limit=space.at_limit(found.parameters),
             replica=found.mesh,
-            distance=found.distance,
-            iou=float("nan"),
-            chamfer=float("nan"),
+            measured=Measures(found.distance),
+            grade="replicated" if found.distance <= settings.threshold else "different",
             compatible=found.distance <= settings.threshold,
             group=None,
             reference=reference.shape,

@@ -15,7 +15,7 @@ def test_the_paper_to_the_number():
     assert (paper.network, paper.cameras, paper.views, paper.image_size) == ("vgg19", "learned", 3, 256)
     assert (paper.optimiser, paper.learning_rate, paper.weight_decay) == ("adam", 1e-5, 1e-8)
     assert (paper.camera_rate, paper.epochs, paper.batch, paper.samples) == (5e-4, 50, 32, 3000)
-    assert (paper.threshold, paper.cut, paper.refine) == (0.18, 0.4, "off")
+    assert (paper.threshold, paper.cut, paper.refine, paper.judge) == (0.18, 0.4, "off", "paper")
 
 
 def test_presets_take_changes_and_are_recorded():
@@ -57,7 +57,9 @@ def test_settings_of_the_predictor_are_checked(wrong):
         ({"augment": 1}, "augment=1 must be True or False"),
         ({"learning_rate": math.inf}, "learning_rate=inf must be a finite number, greater than 0"),
         ({"threshold": math.nan}, "threshold=nan must be a finite number, greater than 0"),
-        ({"fidelity": 1.0}, "fidelity=1.0 must be a finite number, greater than 0 and less than 1"),
+        ({"vif": 1.0}, "vif=1.0 must be a finite number, greater than 0 and less than 1"),
+        ({"judge": "papers"}, "judge='papers' must be fidelity or paper; did you mean paper?"),
+        ({"close": 0.6}, "close=0.6 must be at most replicated=0.5"),
         ({"metric": (1.0, 2.0, 3.0)}, "metric=(1.0, 2.0, 3.0) must be 4 finite numbers, or None"),
         ({"workers": 0}, "workers=0 must be a whole number, at least 1, or None"),
         ({"weights": 3}, "weights=3 must be a text, or None"),
@@ -92,6 +94,12 @@ def test_every_setting_has_a_group_and_one_line_of_help():
     assert list(groups()) == ["building", "learning", "searching", "judging"]
     assert sorted([*grouped, "seed", "workers"]) == sorted(described()) == sorted(sw.Settings().record())
     assert all(field.help.endswith(".") and "\n" not in field.help for field in described().values())
+
+
+def test_a_record_of_before_the_fidelity_judge_is_the_papers():
+    old = {name: value for name, value in sw.Settings().record().items() if name not in groups()["judging"]}
+    assert sw.Settings.from_record({**old, "fidelity": 0.2}) == sw.Settings(judge="paper", vif=0.2)
+    assert sw.Settings.from_record(sw.Settings().record()) == sw.Settings()
 
 
 def test_records_of_older_versions_load_and_what_they_took_for_the_default_is_the_default():

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from shapewright.fitting.fit import fit
     from shapewright.fitting.learning import train
     from shapewright.fitting.samples import sample
+    from shapewright.judging.judge import fidelity
+    from shapewright.judging.verdict import Verdict
     from shapewright.prediction.predictor import Predictor
     from shapewright.references import Collection, CollectionError, Reference
     from shapewright.report.page import write_report
@@ -26,10 +28,12 @@ _ON_FIRST_USE = {
     "compare": "shapewright.runs.changes",
     "evaluate": "shapewright.fitting.evaluation",
     "explain": "shapewright.feedback.explanation",
+    "fidelity": "shapewright.judging.judge",
     "fit": "shapewright.fitting.fit",
     "light_field": "shapewright.comparison",
     "outline": "shapewright.comparison",
     "Iteration": "shapewright.runs.iteration",
+    "Verdict": "shapewright.judging.verdict",
     "Predictor": "shapewright.prediction.predictor",
     "sample": "shapewright.fitting.samples",
     "train": "shapewright.fitting.learning",
@@ -68,10 +72,12 @@ __all__ = [
     "Scalar",
     "Settings",
     "Transform",
+    "Verdict",
     "When",
     "compare",
     "evaluate",
     "explain",
+    "fidelity",
     "fit",
     "light_field",
     "load_procedure",

@@ -17,6 +17,7 @@ Align: TypeAlias = Literal["free", "upright"]
 Cameras: TypeAlias = Literal["fixed", "learned"]
 Device: TypeAlias = Literal["auto", "cpu", "cuda", "mps"]
 Facing: TypeAlias = Literal["given", "found"]
+JudgeName: TypeAlias = Literal["fidelity", "paper"]
 Network: TypeAlias = Literal["compact", "vgg19"]
 Optimiser: TypeAlias = Literal["adamw", "adam"]
 Preset: TypeAlias = Literal["fast", "paper"]
@@ -72,11 +73,17 @@ class Searching:
 
 @dataclass(frozen=True, kw_only=True)
 class Judging:
-    """When a replica counts as its reference, and how the other references are grouped. Defaults are the paper's."""
+    """When a replica counts as its reference, and how the other references are grouped.
 
+    The paper's measure, with threshold and vif, is always taken; it decides where it is the judge.
+    """
+
+    judge: Annotated[JudgeName, "fidelity: as a person sees it; paper: by light-field distance or VIF."] = "fidelity"
+    replicated: Annotated[float, Within(above=0, below=1), "Least fidelity of a replicated reference."] = 0.5
+    close: Annotated[float, Within(above=0, below=1), "Least fidelity of a close one; at most replicated."] = 0.2
     threshold: Annotated[float, Within(above=0), "Largest light-field distance of a compatible mesh."] = 0.18
     metric: Annotated[Weights | None, "Learned from marks: bias; weights of distance, IoU and depth difference."] = None
-    fidelity: Annotated[float, Within(above=0, below=1), "Least visual fidelity (VIF) of a compatible drawing."] = 0.05
+    vif: Annotated[float, Within(above=0, below=1), "Least visual information fidelity of a compatible drawing."] = 0.05
     cut: Annotated[float, Within(above=0), "Groups merge up to this share of the largest distance."] = 0.4
     cut_absolute: Annotated[bool, "Groups merge up to the distance cut itself."] = False
     align: Annotated[Align, "Compare in all rotations, or about the up axis only."] = "free"
@@ -105,6 +112,8 @@ class Settings(Judging, Searching, Learning, Building):
             raise ValueError(f"image_size={self.image_size} must be at least 32 for network='vgg19'")
         if self.cut > 1.0 and not self.cut_absolute:
             raise ValueError(f"cut={self.cut} must be at most 1, or a distance together with cut_absolute=True")
+        if self.close > self.replicated:
+            raise ValueError(f"close={self.close} must be at most replicated={self.replicated}")
 
     @classmethod
     def preset(cls, name: Preset, **changes: Any) -> Settings:
@@ -126,8 +135,11 @@ class Settings(Judging, Searching, Learning, Building):
         """The inverse of ``record``, of this or an older version.
 
         Unknown entries are left out. So are values that are not allowed: older versions took them for the default.
+        The first versions had the paper's judge alone, and called ``vif`` fidelity.
         """
         known = described()
+        if "judge" not in record:
+            record = {"judge": "paper", "vif": record.get("fidelity"), **record}
         return cls(**{name: value for name, value in record.items() if name in known and known[name].allows(value)})
 
 
@@ -159,5 +171,6 @@ _PRESETS: dict[str, dict[str, Any]] = {
         "cameras": "learned",
         "camera_rate": 5e-4,
         "refine": "off",
+        "judge": "paper",
     },
 }

@@ -27,8 +27,8 @@ def runs(tmp_path_factory):
     (folder / "few" / "broken.png").write_bytes(b"nothing")
     settings = ("--samples", 200, "--epochs", 2, "--refine", "off", "--workers", 1, "--json")
     found = run("fit", V1, folder / "few", "--out", folder / "001", *settings)
-    run("fit", V1, folder / "few", "--out", folder / "002", "--from", folder / "001", "--fidelity", 0.9, *settings)
-    run("fit", V1, folder / "few", "--out", folder / "003", "--from", folder / "001", "--fidelity", 0.002, *settings)
+    run("fit", V1, folder / "few", "--out", folder / "002", "--from", folder / "001", "--vif", 0.9, *settings)
+    run("fit", V1, folder / "few", "--out", folder / "003", "--from", folder / "001", "--vif", 0.002, *settings)
     return folder, found
 
 

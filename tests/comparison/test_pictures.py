@@ -26,7 +26,7 @@ def test_measures_fall_with_the_difference():
     overlaps = [intersection_over_union(table, other) for other in others]
     fidelities = [visual_information_fidelity(table, other) for other in others]
     assert overlaps == sorted(overlaps, reverse=True) and fidelities == sorted(fidelities, reverse=True)
-    assert fidelities[0] > Settings.fidelity > fidelities[-1]
+    assert fidelities[0] > Settings.vif > fidelities[-1]
     assert overlaps[0] == pytest.approx((0.06 + 0.2 * 0.64 * 0.8) / (0.06 + 0.2 * 0.64), abs=0.08)
 
 

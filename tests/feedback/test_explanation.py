@@ -14,6 +14,7 @@ from shapewright.feedback.record import record_of
 from shapewright.feedback.suggestions import Suggestion
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.judging.judge import Judge
+from shapewright.judging.target import Measures
 from shapewright.modelling.solids import box
 from shapewright.runs.result import Result
 from shapewright.shapes import concatenate
@@ -64,9 +65,8 @@ def iteration_of(procedure, references, vectors, settings):
             active=procedure.space.active(best.parameters),
             at_limit=procedure.space.at_limit(best.parameters),
             replica=best.mesh,
-            distance=best.distance,
-            iou=0.5,
-            chamfer=0.1,
+            measured=Measures(best.distance, 0.5, 0.1),
+            grade="replicated" if best.distance <= settings.threshold else "different",
             compatible=best.distance <= settings.threshold,
             group=None,
             reference=reference.shape,

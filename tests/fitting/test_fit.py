@@ -11,6 +11,7 @@ from shapewright import Infeasible, Range
 from shapewright.modelling.solids import box, cylinder
 from shapewright.report import write_report
 from shapewright.runs.folder import RunError
+from shapewright.runs.result import MEASURES
 
 SETTINGS = sw.Settings(seed=1, samples=500, epochs=16, image_size=32, workers=2)
 
@@ -43,9 +44,10 @@ def iteration():
 
 
 def test_an_iteration_tells_the_replicated_from_the_misfits(iteration):
-    assert set(iteration.compatible) == {"stool 0", "stool 1"}
-    for name in iteration.compatible:
+    assert set(iteration.replicated) == set(iteration.compatible) == {"stool 0", "stool 1"}
+    for name in iteration.replicated:
         result = iteration[name]
+        assert result.grade == "replicated" and result.fidelity >= SETTINGS.replicated
         assert result.distance <= 0.18 and result.iou > 0.85 and result.chamfer < 0.05
         assert result.group is None and result.error is None
         assert result.parameters["seat"] == ("square" if name == "stool 0" else "round")
@@ -53,13 +55,29 @@ def test_an_iteration_tells_the_replicated_from_the_misfits(iteration):
         assert np.array_equal(result.replica.vertices, stool(**result.parameters).vertices)
 
 
+def test_every_reference_has_one_grade_and_the_same_measures(iteration):
+    grades = {name: iteration[name].grade for name in iteration.names}
+    by_grade = (iteration.replicated, iteration.close, iteration.different)
+    assert sorted(name for names in by_grade for name in names) == sorted(grades)
+    assert iteration.misfits == tuple(name for name, grade in grades.items() if grade != "replicated")
+    assert set(iteration.means) == set(iteration["ball"].measures) == set(MEASURES)
+    assert iteration.means["iou"] == pytest.approx(np.mean([result.iou for result in iteration]))
+
+
+def test_the_papers_judge_goes_by_the_distance():
+    settings = replace(SETTINGS, samples=100, epochs=1, refine="off", judge="paper", threshold=0.3)
+    it = sw.fit(stool, references(), settings)
+    assert it.replicated == it.compatible and it.close == () and it.record["judge"] == "paper"
+    assert not math.isnan(it["ball"].fidelity)
+
+
 def test_misfits_that_look_alike_are_one_group(iteration):
     largest = iteration.groups[0]
     assert set(largest.members) == {"bench a", "bench/b", 'bench "c"'}
     assert largest.representative in largest.members
     for i, group in enumerate(iteration.groups):
-        assert all(iteration[name].group == i and not iteration[name].compatible for name in group.members)
-    assert sorted(n for g in iteration.groups for n in g.members) == sorted(iteration.incompatible)
+        assert all(iteration[name].group == i and iteration[name].grade != "replicated" for name in group.members)
+    assert sorted(n for g in iteration.groups for n in g.members) == sorted(iteration.misfits)
 
 
 def test_the_same_seed_gives_the_same_iteration(iteration):
@@ -73,6 +91,7 @@ def test_a_saved_run_reads_back_the_same(iteration, tmp_path):
     folder = iteration.save(tmp_path / "runs" / "001")
     loaded = sw.Iteration.load(folder)
     assert loaded.record == {**iteration.record, "references": loaded.record["references"]}
+    assert loaded.replicated == iteration.replicated and loaded.means == iteration.means
     for mine, theirs in zip(loaded, iteration, strict=True):
         assert (mine.name, mine.parameters, mine.distance, mine.group) == (
             theirs.name,
@@ -106,7 +125,7 @@ def test_a_run_holds_everything(iteration, tmp_path):
     assert len(list((folder / "replicas").glob("*.glb"))) == 6
     assert len(list((folder / "thumbnails").glob("*.png"))) == 12
     rows = (folder / "parameters.csv").read_text().splitlines()
-    assert rows[0] == "reference,compatible,distance,iou,chamfer,group,height,seat" and len(rows) == 7
+    assert rows[0] == f"reference,grade,compatible,{','.join(MEASURES)},group,height,seat" and len(rows) == 7
     record = json.loads((folder / "iteration.json").read_text())
     assert record["seed"] == 1 and record["settings"]["samples"] == 500 and "torch" in record["versions"]
     assert "def stool" in (folder / "procedure.py").read_text()
@@ -149,7 +168,7 @@ def test_an_iteration_goes_on_from_the_previous_one(iteration, tmp_path):
     carried = answers[0][1]["stool 1"]
     assert carried == {**iteration["stool 1"].parameters, "foot": False}
     for name in iteration.compatible:
-        assert warm[name].distance <= iteration[name].distance
+        assert warm[name].fidelity >= iteration[name].fidelity
     again = sw.fit(stool_with_foot, references(), replace(SETTINGS, warm_epochs=3), previous=previous)
     assert [(r.parameters, r.distance) for r in again] == [(r.parameters, r.distance) for r in warm]
 
@@ -169,7 +188,7 @@ def test_adaptive_rounds_never_lose_what_was_found(iteration):
     adaptive = sw.fit(stool, references(), settings)
     assert adaptive.metrics["samples"] > iteration.metrics["samples"]
     for mine, theirs in zip(adaptive, iteration, strict=True):
-        assert mine.distance <= theirs.distance + 1e-12
+        assert mine.fidelity >= theirs.fidelity - 1e-12
 
 
 @sw.procedure
@@ -189,8 +208,9 @@ def test_replicas_that_fail_or_cannot_be_seen_are_results_too():
     assert "no view shows it" in it["sheet"].error
     for result in it:
         assert bool(result.error) == math.isnan(result.distance)
-        assert not (result.error and result.compatible)
-    assert "cube" in it.compatible
+        assert math.isnan(result.fidelity) == bool(result.error)
+        assert not (result.error and (result.compatible or result.grade != "different"))
+    assert "cube" in it.replicated
 
 
 def test_settings_are_checked_and_recorded():

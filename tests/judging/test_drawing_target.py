@@ -44,10 +44,6 @@ def overlaps(judge, made):
     return np.array([(each.iou, each.chamfer) for each in measures]).T
 
 
-def compatible(judge, *distances):
-    return judge.compatible([Measures(distance) for distance in distances])
-
-
 def builds(*shapes):
     return [Build({}, shape) for shape in shapes]
 
@@ -83,17 +79,17 @@ def test_residuals_and_overlaps_are_of_areas(judge):
 
 
 def test_misfits_are_grouped_by_outline(judge):
-    groups = judge.groups(compatible(judge, np.nan, 0.99, 0.99, 0.99))
+    groups = judge.groups(judge.grades([Measures(fidelity=value) for value in (np.nan, 0.3, 0.1, 0.49)]))
     assert {frozenset(group.members) for group in groups} >= {frozenset(DISCS)}
     assert sorted(name for group in groups for name in group.members) == sorted(REFERENCES.names)
-    assert judge.groups(compatible(judge, 0.1, 0.99, 0.3, 0.2))[0].members == ("disc 0",)
+    assert judge.groups(["replicated", "close", "replicated", "replicated"])[0].members == ("disc 0",)
 
 
 def test_what_cannot_be_seen_is_never_replicated():
     thin = sw.Collection.of({"thin": shapely.box(0, 0, 1000, 0.001), "table": table()})
     judge = Judge.of(thin, sw.Settings(workers=1))
     assert np.isnan(judge.distances(builds(shapely_thin(), table()))).all()
-    assert judge.groups(np.array([True, False])) == ()
+    assert judge.groups(["replicated", "different"]) == ()
 
 
 def shapely_thin():

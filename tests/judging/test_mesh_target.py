@@ -9,6 +9,7 @@ from shapewright.comparison import light_field
 from shapewright.comparison.light_field.aligned import AlignedCost
 from shapewright.comparison.surfaces import chamfer
 from shapewright.comparison.views import depth_difference, intersection_over_union
+from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.judge import Judge, target_of
 from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.target import Measures
@@ -38,13 +39,15 @@ def test_it_measures_what_the_comparisons_measure():
         intersection_over_union(reference, replica),
         chamfer(reference, replica, seed=3),
         depth_difference(reference, replica),
+        Fidelity(reference).evidence(replica).value,
     )
     assert measures.chamfer != chamfer(reference, replica, seed=0)
 
 
-def test_a_distance_that_is_known_is_not_measured_again():
+def test_what_is_known_is_not_measured_again():
     target = MeshTarget(table(), SETTINGS)
-    assert target.measures(table(0.5), 0.25).distance == 0.25
+    measures = target.measures(table(0.5), 0.25, 0.125)
+    assert (measures.distance, measures.fidelity) == (0.25, 0.125)
     assert is_nothing(target.measures(table(0.5), math.nan))
 
 
@@ -75,7 +78,7 @@ def test_nothing_replicates_what_no_view_shows():
     measures = judge.measures(builds, distances)
     assert is_nothing(measures[0]) and judge.compatible(measures).tolist() == [False, True]
     assert judge.measure([0, 1])([(0, table()), (1, table(0.5))])[0] is None
-    assert judge.groups(np.array([False, True])) == ()
+    assert judge.groups(judge.grades(measures)) == ()
     assert judge.search_costs([(0, table()), (1, table())]) == [math.inf, 0.0]
 
 

@@ -95,8 +95,9 @@ def print_iteration(iteration: Iteration, folder: Path) -> None:
     """Counts, groups, held-out metrics, and where the report is."""
     total = len(iteration)
     out.print(
-        f"\n[bold]{len(iteration.compatible)} of {total}[/] references are compatible "
-        f"({iteration.metric.criterion}); their mean IoU is {iteration.mean_iou:.3f}",
+        f"\n[bold]{len(iteration.replicated)} of {total}[/] references are replicated, {len(iteration.close)} close, "
+        f"{len(iteration.different)} different (paper's measure: {len(iteration.compatible)} of {total}, "
+        f"{iteration.metric.criterion})",
         highlight=False,
     )
     skipped = iteration.collection["skipped"]
@@ -123,21 +124,27 @@ def print_iteration(iteration: Iteration, folder: Path) -> None:
 
 def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
     """What ``fit --json`` prints."""
+    from shapewright.runs.result import MEASURES
+
     record = iteration.record
     return {
         "run": str(folder),
         "report": str(folder / "report.html"),
         "references": len(iteration),
         "metric": record["metric"],
+        "judge": iteration.settings.judge,
+        "replicated": len(iteration.replicated),
+        "close": len(iteration.close),
+        "different": len(iteration.different),
         "compatible": len(iteration.compatible),
-        "incompatible": len(iteration.incompatible),
+        "incompatible": len(iteration) - len(iteration.compatible),
         "skipped": record["collection"]["skipped"],
         "groups": record["groups"],
         "metrics": record["metrics"]["validation"],
         "failed_samples": record["metrics"]["failed"],
         "seconds": record["seconds"],
         "results": {
-            entry["name"]: {key: entry[key] for key in ("parameters", "distance", "iou", "compatible", "group")}
+            entry["name"]: {key: entry[key] for key in ("parameters", "grade", *MEASURES, "compatible", "group")}
             for entry in record["references"]
         },
     }
@@ -194,11 +201,12 @@ def _range(mean: float, low: float, high: float) -> str:
 def print_comparison(before: Path, after: Path, comparison: Comparison) -> None:
     """What changed between two runs, and how far each reference moved."""
     out.print(f"from {escape(str(before))} to {escape(str(after))}", highlight=False)
+    word = "replicated" if comparison.judge == "fidelity" else "compatible"
     for title, moves in (
-        ("newly compatible", comparison.gained),
+        (f"newly {word}", comparison.gained),
         ("lost", comparison.lost),
-        ("closer, not across the threshold", comparison.closer),
-        ("further, not across the threshold", comparison.further),
+        (f"closer, and {word} both times or neither time", comparison.closer),
+        (f"further, and {word} both times or neither time", comparison.further),
     ):
         out.print(f"\n[bold]{len(moves)}[/] {title}", highlight=False)
         for move in moves:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @with_settings(
     *("seed", "samples", "epochs", "cameras", "views", "augment", "refine", "rounds", "device"),
-    *("threshold", "fidelity", "align", "facing", "shape_seconds", "shape_memory_mb", "workers"),
+    *("judge", "threshold", "vif", "align", "facing", "shape_seconds", "shape_memory_mb", "workers"),
 )
 def fit(
     procedure: ProcedureArgument,

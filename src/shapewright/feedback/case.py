@@ -50,13 +50,13 @@ class Case:
     """One reference, and what is known about it by now.
 
     Each step of an explanation makes a case that knows more. At first all replicas are that of the iteration. For a
-    compatible reference they remain so, and there are no causes.
+    replicated reference they remain so, and there are no causes.
     """
 
     name: str  # of the reference
     row: int  # its index in the collection
     reference: Mesh
-    compatible: bool  # whether the iteration's replica is
+    replicated: bool  # whether the iteration's judge says so
     replica: Replica  # the iteration's
     residuals: Residuals  # where that differs from the reference
     overlay: Overlay  # measures how much of the surfaces lies apart
@@ -68,11 +68,11 @@ class Case:
     causes: tuple[Cause, ...] = ()  # the chief cause first
 
     @classmethod
-    def of(cls, name: str, reference: Mesh, compatible: bool, replica: Replica, residuals: Residuals) -> Case:
+    def of(cls, name: str, reference: Mesh, replicated: bool, replica: Replica, residuals: Residuals) -> Case:
         """A case that knows the iteration's replica only. residuals: of that replica."""
         here = Overlay(residuals.reference)
         return cls(
-            name, replica.row, reference, compatible, replica, residuals, here, replica, replica, residuals, replica
+            name, replica.row, reference, replicated, replica, residuals, here, replica, replica, residuals, replica
         )
 
 

@@ -109,7 +109,7 @@ def _cases(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]:
         result, reference = results[replica.row], judge.references.references[replica.row].shape
         assert isinstance(reference, Mesh)
         where = residuals(VisibleSurface.of(reference), replica.mesh)
-        return Case.of(result.name, reference, result.compatible, replica, where)
+        return Case.of(result.name, reference, result.grade == "replicated", replica, where)
 
     return in_threads(case, replicas, judge.settings.workers)
 
@@ -125,7 +125,7 @@ def _drawings(iteration: Iteration, crew: Workers, judge: Judge, stages: Stages)
         if isinstance(reference, Drawing) and isinstance(build.shape, Drawing) and np.isfinite(distance):
             replica = Replica(row, build.parameters, build.shape, distance)
             where = areas(reference, build.shape)
-            cases.append(DrawnCase.of(result.name, reference, result.compatible, replica, where))
+            cases.append(DrawnCase.of(result.name, reference, result.grade == "replicated", replica, where))
     stages.begin("causes", 4)
     return drawn_causes(cases, iteration.predictor, crew, judge, stages)
 

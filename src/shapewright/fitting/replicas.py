@@ -1,4 +1,4 @@
-"""The replicas of a fit: predicted, searched for, and kept where they are nearer than those before."""
+"""The replicas of a fit: predicted, searched for, and kept where they are better than those before."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shapewright.building import Build, Workers
 from shapewright.fitting.learning import Lesson
@@ -17,20 +18,23 @@ from shapewright.progress import Stages
 from shapewright.search.search import SearchStart, refine
 from shapewright.shapes import Floats, Ints
 
-_NEAR = 0.5  # share of the threshold up to which parameters that are known already are not searched for again
+_NEAR = 0.5
+"""Parameters that are known already are not searched for again up to this share of the threshold, or of the way from a
+perfect replica to the least fidelity of a replicated one."""
 
 
 @dataclass(frozen=True, eq=False)
 class Replicas:
-    """The nearest build so far for each of N references."""
+    """The best build so far for each of N references."""
 
     builds: tuple[Build | None, ...]  # None where nothing was tried yet
-    distances: Floats  # by the judge, (N,); NaN where there is nothing to measure
+    distances: Floats  # by the paper's measure, (N,); NaN where there is nothing to measure
+    fidelities: Floats  # (N,); NaN where there is nothing to measure
     fields: Ints  # the light field in which the two differ least, (N,)
 
     @classmethod
     def none(cls, count: int) -> Replicas:
-        return cls((None,) * count, np.full(count, np.nan), np.zeros(count, dtype=np.int64))
+        return cls((None,) * count, np.full(count, np.nan), np.full(count, np.nan), np.zeros(count, dtype=np.int64))
 
     @property
     def parameters(self) -> list[Parameters]:
@@ -38,14 +42,27 @@ class Replicas:
         return [build.parameters for build in self.builds if build]
 
     def tried(self, vectors: Sequence[Parameters], crew: Workers, judge: Judge) -> Replicas:
-        """Build one vector for each reference, and keep it where it is nearer."""
+        """Build one vector for each reference, and keep it where it is better by the judge of the settings."""
         builds = crew.build(vectors)
-        distances, fields = judge.nearest(builds)
-        closer = (distances < self.distances) | (np.isnan(self.distances) & ~np.isnan(distances))
-        better = [old is None or bool(nearer) for old, nearer in zip(self.builds, closer, strict=True)]
-        pairs = zip(better, builds, self.builds, strict=True)
-        nearest = tuple(new if is_better else old for is_better, new, old in pairs)
-        return Replicas(nearest, np.where(better, distances, self.distances), np.where(better, fields, self.fields))
+        (distances, fields), fidelities = judge.nearest(builds), judge.fidelities(builds)
+        nearer = (distances < self.distances) | (np.isnan(self.distances) & ~np.isnan(distances))
+        if judge.settings.judge == "fidelity":
+            same = (fidelities == self.fidelities) | np.isnan(fidelities) | np.isnan(self.fidelities)
+            nearer = (fidelities > self.fidelities) | (same & nearer)
+        better = [old is None or bool(near) for old, near in zip(self.builds, nearer, strict=True)]
+        best = tuple(new if use else old for use, new, old in zip(better, builds, self.builds, strict=True))
+        return Replicas(
+            best,
+            np.where(better, distances, self.distances),
+            np.where(better, fidelities, self.fidelities),
+            np.where(better, fields, self.fields),
+        )
+
+    def near(self, judge: Judge) -> NDArray[np.bool_]:
+        """Which are so good that they need no search, (N,)."""
+        if judge.settings.judge == "paper":
+            return np.asarray(self.distances <= _NEAR * judge.metric.threshold)
+        return np.asarray(self.fidelities >= 1.0 - _NEAR * (1.0 - judge.settings.replicated))
 
 
 def resume(start: Start, crew: Workers, judge: Judge) -> Replicas:
@@ -61,7 +78,7 @@ def replicate(
 ) -> Replicas:
     """Try the predicted parameters; search from there where no replica was near before. new: see ``SearchStart``."""
     settings, known = judge.settings, [build.parameters if build else None for build in replicas.builds]
-    rows = np.flatnonzero(~(replicas.distances <= _NEAR * judge.metric.threshold))
+    rows = np.flatnonzero(~replicas.near(judge))
     stages.begin("predict", len(known))
     prediction = lesson.predictor.infer([reference.shape for reference in judge.references])
     stages.begin("replicate", 1)

@@ -26,12 +26,12 @@ VERSIONED = ("shapewright", "numpy", "torch", "numba", "manifold3d", "scikit-lea
 def judged(
     procedure: Procedure, judge: Judge, replicas: Replicas, stages: Stages
 ) -> tuple[tuple[Result, ...], tuple[Group, ...]]:
-    """The result of each reference, and the groups of those that are not compatible."""
+    """The result of each reference, and the groups of those that are not replicated."""
     stages.begin("compare", len(judge.references))
     builds = [build for build in replicas.builds if build]
-    measures = judge.measures(builds, replicas.distances)
-    compatible = judge.compatible(measures)
-    groups = judge.groups(compatible)
+    measures = judge.measures(builds, replicas.distances, replicas.fidelities)
+    grades, compatible = judge.grades(measures), judge.compatible(measures)
+    groups = judge.groups(grades)
     group_of = {name: i for i, group in enumerate(groups) for name in group.members}
     results = tuple(
         Result(
@@ -41,13 +41,16 @@ def judged(
             active=procedure.space.active(build.parameters),
             at_limit=procedure.space.at_limit(build.parameters) if build.shape else (),
             replica=build.shape,
+            measured=its,
+            grade=grade,
             compatible=bool(same),
             group=group_of.get(reference.name),
             reference=reference.shape,
             error=_error(build, its.distance),
-            **vars(its),
         )
-        for reference, build, its, same in zip(judge.references, builds, measures, compatible, strict=True)
+        for reference, build, its, grade, same in zip(
+            judge.references, builds, measures, grades, compatible, strict=True
+        )
     )
     return results, groups
 

@@ -12,8 +12,10 @@ from shapewright.comparison import outline
 from shapewright.comparison.blurred import PARTS, UNIT, BlurredDifference
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
-from shapewright.judging.paper import Metric, fidelity_metric
+from shapewright.judging.fidelity import Fidelity
+from shapewright.judging.paper import Metric, vif_metric
 from shapewright.judging.target import Measures
+from shapewright.judging.verdict import Evidence, Grade, grade_of
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Shape
 
@@ -29,7 +31,7 @@ class DrawingTarget:
     surprise_cost = 0.0  # forms are told apart by their pictures
 
     def __init__(self, shape: Drawing, settings: Settings) -> None:
-        self.shape, self._settings = shape, settings
+        self.shape, self._settings, self._fidelity = shape, settings, Fidelity(shape)
         self._describe = functools.cache(functools.partial(_outline, shape))
         self._blurred = functools.cache(functools.partial(BlurredDifference, shape))
 
@@ -44,7 +46,7 @@ class DrawingTarget:
 
     @property
     def metric(self) -> Metric:
-        return fidelity_metric(self._settings.fidelity)
+        return vif_metric(self._settings.vif)
 
     def objective(self, field: int = 0) -> BlurredDifference | None:
         """Drawings have one view only; field says nothing."""
@@ -61,14 +63,23 @@ class DrawingTarget:
             return math.nan, 0
         return max(0.0, 1.0 - visual_information_fidelity(self.shape, replica)), 0
 
-    def measures(self, replica: Shape | None, distance: float | None = None) -> Measures:
+    def evidence(self, replica: Shape | None) -> Evidence:
+        return self._fidelity.evidence(replica) if self.visible else Evidence(math.nan)
+
+    def measures(self, replica: Shape | None, distance: float | None = None, fidelity: float | None = None) -> Measures:
         distance = self.nearest(replica)[0] if distance is None else distance
         if math.isnan(distance) or not isinstance(replica, Drawing):
             return Measures()
-        return Measures(distance, intersection_over_union(self.shape, replica))
+        fidelity = self.evidence(replica).value if fidelity is None else fidelity
+        return Measures(distance, intersection_over_union(self.shape, replica), fidelity=fidelity)
 
     def compatible(self, measures: Measures) -> bool:
         return self.metric.accepts(measures.distance)
+
+    def grade(self, measures: Measures) -> Grade:
+        if self._settings.judge == "paper":
+            return "replicated" if self.compatible(measures) else "different"
+        return grade_of(measures.fidelity, self._settings)
 
     @classmethod
     def groups(cls, names: Sequence[str], targets: Sequence[DrawingTarget], settings: Settings) -> tuple[Group, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +16,7 @@ from shapewright.judging.drawing_target import DrawingTarget
 from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import Measures, Target
+from shapewright.judging.verdict import Grade, Verdict
 from shapewright.references import Collection
 from shapewright.search.objective import Criterion, Measure, measure_of
 from shapewright.settings import Settings
@@ -27,6 +29,23 @@ Rows = Sequence[int] | Ints  # indices of references in their collection
 def target_of(shape: Shape, settings: Settings, cache: Path | None = None) -> Target:
     """What replicas of a mesh or of a drawing are measured against; cache: a folder that keeps descriptors."""
     return MeshTarget(shape, settings, cache) if isinstance(shape, Mesh) else DrawingTarget(shape, settings)
+
+
+def fidelity(replica: Shape, reference: Shape, settings: Settings | None = None) -> Verdict:
+    """How likely a person calls a replica the same as its reference, and where the two differ.
+
+    Both are compared as they stand, after normalisation: neither is turned or mirrored. settings: the cuts of the
+    grades, and the judge that grades. Raises TypeError for a mesh with a drawing, ValueError for a shape that no
+    picture shows.
+    """
+    if isinstance(replica, Mesh) != isinstance(reference, Mesh):
+        raise TypeError("a mesh and a drawing cannot be compared")
+    target = target_of(reference, settings or Settings())
+    found = target.evidence(replica)
+    measures = target.measures(replica, fidelity=found.value)
+    if math.isnan(measures.fidelity):
+        raise ValueError("one of the shapes is so thin that no picture shows it")
+    return Verdict(found.value, target.grade(measures), found.missing, found.surplus, measures.by_name())
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +65,7 @@ class Judge:
 
     @property
     def metric(self) -> Metric:
-        """By which references are compatible."""
+        """By which references are compatible: the paper's measure."""
         return self.targets[0].metric
 
     @property
@@ -65,10 +84,17 @@ class Judge:
         distances, fields = [distance for distance, _ in found], [field for _, field in found]
         return np.array(distances, dtype=np.float64), np.array(fields, dtype=np.int64)
 
-    def measures(self, builds: Sequence[Build], distances: Floats) -> list[Measures]:
-        """All that can be measured of one build for each reference, whose distances are known already, (N,)."""
-        triples = zip(self.targets, builds, distances.tolist(), strict=True)
-        return in_threads(lambda each: each[0].measures(each[1].shape, each[2]), triples, self.settings.workers)
+    def fidelities(self, builds: Sequence[Build], rows: Rows | None = None) -> Floats:
+        """The fidelity of each build to its reference, those of ``rows`` or all: (N,); NaN where there is none."""
+        pairs = zip(self._targets(rows), builds, strict=True)
+        found = in_threads(lambda pair: pair[0].evidence(pair[1].shape).value, pairs, self.settings.workers)
+        return np.array(found, dtype=np.float64)
+
+    def measures(self, builds: Sequence[Build], distances: Floats, fidelities: Floats | None = None) -> list[Measures]:
+        """All that can be measured of one build for each reference; distances and fidelities (N,) are known already."""
+        known = [None] * len(builds) if fidelities is None else fidelities.tolist()
+        each = zip(self.targets, builds, distances.tolist(), known, strict=True)
+        return in_threads(lambda one: one[0].measures(one[1].shape, *one[2:]), each, self.settings.workers)
 
     def search_costs(self, pairs: Sequence[tuple[int, Shape]]) -> list[float]:
         """Costs to search by: of a replica against the reference with that index, in the pose that it has."""
@@ -90,13 +116,18 @@ class Judge:
         return Criterion(measure, target.parts, target.goal, target.enough, target.surprise_cost)
 
     def compatible(self, measures: Sequence[Measures]) -> NDArray[np.bool_]:
-        """Which replicas count as the same as their references, (N,)."""
+        """Which replicas count as the same as their references by the paper's measure, (N,)."""
         pairs = zip(self.targets, measures, strict=True)
         return np.array([target.compatible(each) for target, each in pairs], dtype=bool)
 
-    def groups(self, compatible: NDArray[np.bool_]) -> tuple[Group, ...]:
-        """The visible references that are not compatible, by likeness to each other."""
-        rows = [i for i, target in enumerate(self.targets) if target.visible and not compatible[i]]
+    def grades(self, measures: Sequence[Measures]) -> list[Grade]:
+        """The grade of one replica for each reference, by the judge of the settings."""
+        return [target.grade(each) for target, each in zip(self.targets, measures, strict=True)]
+
+    def groups(self, grades: Sequence[Grade]) -> tuple[Group, ...]:
+        """The visible references that are not replicated, by likeness to each other. grades: of all."""
+        pairs = enumerate(zip(self.targets, grades, strict=True))
+        rows = [i for i, (target, grade) in pairs if target.visible and grade != "replicated"]
         names = [self.references.names[i] for i in rows]
         return type(self.targets[0]).groups(names, self._targets(rows), self.settings)
 

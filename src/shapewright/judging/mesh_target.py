@@ -16,8 +16,10 @@ from shapewright.comparison.light_field.aligned import AlignedCost, nearest_fiel
 from shapewright.comparison.surfaces import chamfer
 from shapewright.comparison.views import depth_difference, intersection_over_union
 from shapewright.judging.calibration import is_same
+from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.paper import Metric, light_field_metric
 from shapewright.judging.target import Measures
+from shapewright.judging.verdict import Evidence, Grade, grade_of
 from shapewright.settings import Settings
 from shapewright.shapes import Floats, Mesh, Shape
 
@@ -34,7 +36,7 @@ class MeshTarget:
     surprise_cost = 5.0  # far less than a difference that can be seen
 
     def __init__(self, shape: Mesh, settings: Settings, cache: Path | None = None) -> None:
-        self.shape, self._settings = shape, settings
+        self.shape, self._settings, self._fidelity = shape, settings, Fidelity(shape)
         self._describe = functools.cache(functools.partial(_descriptor, shape, cache))
         self._aligned = functools.cache(functools.partial(AlignedCost, shape))
 
@@ -69,7 +71,10 @@ class MeshTarget:
             return math.nan, 0
         return light_field.distance(own, other, self._settings.align), nearest_field(own, other)
 
-    def measures(self, replica: Shape | None, distance: float | None = None) -> Measures:
+    def evidence(self, replica: Shape | None) -> Evidence:
+        return self._fidelity.evidence(replica) if self.visible else Evidence(math.nan)
+
+    def measures(self, replica: Shape | None, distance: float | None = None, fidelity: float | None = None) -> Measures:
         distance = self.nearest(replica)[0] if distance is None else distance
         if math.isnan(distance) or not isinstance(replica, Mesh):
             return Measures()
@@ -78,6 +83,7 @@ class MeshTarget:
             intersection_over_union(self.shape, replica),
             chamfer(self.shape, replica, seed=self._settings.seed),
             depth_difference(self.shape, replica),
+            self.evidence(replica).value if fidelity is None else fidelity,
         )
 
     def compatible(self, measures: Measures) -> bool:
@@ -86,6 +92,11 @@ class MeshTarget:
         if learned is None:
             return self.metric.accepts(measures.distance)
         return is_same(learned, measures.distance, measures.iou, measures.depth)
+
+    def grade(self, measures: Measures) -> Grade:
+        if self._settings.judge == "paper":
+            return "replicated" if self.compatible(measures) else "different"
+        return grade_of(measures.fidelity, self._settings)
 
     @classmethod
     def groups(cls, names: Sequence[str], targets: Sequence[MeshTarget], settings: Settings) -> tuple[Group, ...]:

@@ -33,6 +33,6 @@ def light_field_metric(threshold: float) -> Metric:
     return Metric("light-field distance", threshold, FAR * threshold, f"light-field distance at most {threshold:g}")
 
 
-def fidelity_metric(least: float) -> Metric:
+def vif_metric(least: float) -> Metric:
     """The visual information fidelity (VIF) of drawings (paper section 6.2), as a distance: 1 - VIF."""
     return Metric("1 - VIF", 1.0 - least, 1.0, f"visual information fidelity at least {least:g}")

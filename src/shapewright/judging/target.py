@@ -9,6 +9,7 @@ from typing import Protocol, Self
 
 from shapewright.comparison.grouping import Group
 from shapewright.judging.paper import Metric
+from shapewright.judging.verdict import Evidence, Grade
 from shapewright.search.objective import Objective
 from shapewright.settings import Settings
 from shapewright.shapes import Shape
@@ -22,6 +23,10 @@ class Measures:
     iou: float = math.nan  # intersection over union, of silhouettes or of areas, 0 to 1
     chamfer: float = math.nan  # Chamfer distance of surfaces, in units of the largest extent; of meshes only
     depth: float = math.nan  # difference of depth pictures, 0 to 1; of meshes only
+    fidelity: float = math.nan  # probability that a person calls the two the same, 0 to 1
+
+    def by_name(self) -> dict[str, float]:
+        return dict(vars(self))
 
 
 class Target(Protocol):
@@ -67,11 +72,17 @@ class Target(Protocol):
     def nearest(self, replica: Shape | None) -> tuple[float, int]:
         """The distance, and the light field in which the two differ least; NaN and 0 where it cannot be measured."""
 
-    def measures(self, replica: Shape | None, distance: float | None = None) -> Measures:
-        """All that can be measured, nothing where the distance cannot. distance: where it is known already."""
+    def evidence(self, replica: Shape | None) -> Evidence:
+        """The replica's fidelity, and the regions in which the two differ."""
+
+    def measures(self, replica: Shape | None, distance: float | None = None, fidelity: float | None = None) -> Measures:
+        """All that can be measured, nothing where the distance cannot. distance, fidelity: where known already."""
 
     def compatible(self, measures: Measures) -> bool:
-        """Whether a replica with these measures counts as the same."""
+        """Whether a replica with these measures counts as the same by the paper's measure."""
+
+    def grade(self, measures: Measures) -> Grade:
+        """The grade of a replica with these measures, by the judge of the settings."""
 
     @classmethod
     def groups(cls, names: Sequence[str], targets: Sequence[Self], settings: Settings) -> tuple[Group, ...]:

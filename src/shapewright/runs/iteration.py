@@ -15,10 +15,11 @@ import numpy as np
 
 from shapewright.comparison.grouping import Group
 from shapewright.judging.paper import Metric
+from shapewright.judging.verdict import Grade
 from shapewright.prediction.predictor import Predictor
 from shapewright.rendering.thumbnails import thumbnails
 from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
-from shapewright.runs.result import Result, from_record, read_replica, replica_path, to_record
+from shapewright.runs.result import MEASURES, Result, from_record, read_replica, replica_path, to_record
 from shapewright.settings import Settings
 from shapewright.shapes.files import encode
 from shapewright.storage import file_names
@@ -29,12 +30,12 @@ Pictures = Mapping[str, tuple[bytes, bytes | None]]
 
 @dataclass(frozen=True, eq=False)
 class Iteration:
-    """The results of one turn of the loop: ``it["name"]``, ``it.compatible``, ``it.groups``, ``it.seconds``.
+    """The results of one turn of the loop: ``it["name"]``, ``it.replicated``, ``it.groups``, ``it.seconds``.
 
     Attributes:
         results: one of each reference, in the order of the collection.
-        metric: what decides which references are compatible.
-        groups: incompatible references that look alike.
+        metric: the paper's measure, which decides which references are compatible.
+        groups: references that are not replicated and look alike.
         settings: what the iteration was run with.
         seconds: wall time by stage.
         procedure: its name, path, digest and parameters, as the record has them.
@@ -81,19 +82,40 @@ class Iteration:
         return tuple(self._by_name)
 
     @property
+    def replicated(self) -> tuple[str, ...]:
+        """Names of the references that the procedure replicates, by the judge of the settings."""
+        return self._of_grade("replicated")
+
+    @property
+    def close(self) -> tuple[str, ...]:
+        """Names of the references that their replicas resemble, but are not the same as."""
+        return self._of_grade("close")
+
+    @property
+    def different(self) -> tuple[str, ...]:
+        """Names of the references that have no replica, or one that is something else."""
+        return self._of_grade("different")
+
+    @property
+    def misfits(self) -> tuple[str, ...]:
+        """Names of the references that are not replicated: close and different ones."""
+        return self._of_grade("close", "different")
+
+    @property
     def compatible(self) -> tuple[str, ...]:
-        """Names of the references that the procedure replicates."""
+        """Names of the references that are replicated by the paper's measure."""
         return tuple(result.name for result in self.results if result.compatible)
 
     @property
-    def incompatible(self) -> tuple[str, ...]:
-        return tuple(result.name for result in self.results if not result.compatible)
+    def means(self) -> dict[str, float]:
+        """The mean of each measure over the references where it can be taken, by name; NaN where it never can."""
+        columns = {
+            name: [r.measures[name] for r in self.results if math.isfinite(r.measures[name])] for name in MEASURES
+        }
+        return {name: float(np.mean(values)) if values else math.nan for name, values in columns.items()}
 
-    @property
-    def mean_iou(self) -> float:
-        """Mean IoU of the compatible references and their replicas; NaN where no reference is compatible."""
-        values = [result.iou for result in self.results if result.compatible]
-        return float(np.mean(values)) if values else math.nan
+    def _of_grade(self, *grades: Grade) -> tuple[str, ...]:
+        return tuple(result.name for result in self.results if result.grade in grades)
 
     @cached_property
     def record(self) -> dict[str, Any]:
@@ -108,6 +130,7 @@ class Iteration:
             "settings": self.settings.record(),
             "procedure": dict(self.procedure),
             "collection": dict(self.collection),
+            "judge": self.settings.judge,
             "threshold": self.metric.threshold,
             "metric": asdict(self.metric),
             "references": [to_record(result, slugs[result.name]) for result in self.results],
@@ -179,12 +202,13 @@ class Iteration:
         names = [parameter["name"] for parameter in self.procedure["parameters"]]
         with path.open("w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
-            table.writerow(["reference", "compatible", "distance", "iou", "chamfer", "group", *names])
+            table.writerow(["reference", "grade", "compatible", *MEASURES, "group", *names])
             for result in self.results:
-                measures = ("" if math.isnan(m) else f"{m:.6f}" for m in (result.distance, result.iou, result.chamfer))
+                measures = ("" if math.isnan(value) else f"{value:.6f}" for value in result.measures.values())
                 values = (result.parameters or {}).get
                 group = "" if result.group is None else result.group
-                table.writerow([result.name, result.compatible, *measures, group, *(values(n, "") for n in names)])
+                known = (result.name, result.grade, result.compatible)
+                table.writerow([*known, *measures, group, *(values(n, "") for n in names)])
 
 
 def draw_pictures(results: Sequence[Result], threads: int | None = None) -> Pictures:

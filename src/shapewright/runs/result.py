@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from shapewright.judging.target import Measures
+from shapewright.judging.verdict import Grade
 from shapewright.parameters import Parameters
 from shapewright.references.readers.svg import read_svg
+from shapewright.settings import JudgeName
 from shapewright.shapes import Mesh, Shape
 from shapewright.shapes.files import read_glb
 
@@ -25,14 +28,12 @@ class Result:
         active: names of the parameters that matter at these values.
         at_limit: scalars at an end of their Range.
         replica: the shape that the procedure builds, in its own units; None when it failed.
-        distance: by the iteration's metric; NaN without a replica.
-        iou: of the silhouettes, 0 to 1; NaN without a replica.
-        chamfer: distance of the surfaces, in units of the largest extent; NaN without a replica and for drawings.
-        compatible: whether the procedure replicates the reference.
-        group: index of the iteration's group, None for a compatible reference.
+        measured: how the replica differs from the reference; NaN without a replica.
+        grade: by the judge of the settings; different without a replica.
+        compatible: whether the two count as the same by the paper's measure.
+        group: index of the iteration's group, None for a replicated reference.
         reference: the normalised shape, None in an iteration that was loaded.
         error: why there is no replica.
-        depth: difference of the depth pictures; NaN without a replica and for drawings.
     """
 
     name: str
@@ -41,17 +42,46 @@ class Result:
     active: tuple[str, ...]
     at_limit: tuple[str, ...]
     replica: Shape | None
-    distance: float
-    iou: float
-    chamfer: float
+    measured: Measures
+    grade: Grade
     compatible: bool
     group: int | None
     reference: Shape | None
     error: str | None = None
-    depth: float = math.nan
+
+    @property
+    def fidelity(self) -> float:
+        """The probability that a person calls replica and reference the same, 0 to 1; NaN without a replica."""
+        return self.measured.fidelity
+
+    @property
+    def distance(self) -> float:
+        """By the paper's measure, the iteration's metric; NaN without a replica."""
+        return self.measured.distance
+
+    @property
+    def iou(self) -> float:
+        """Of the silhouettes or areas, 0 to 1; NaN without a replica."""
+        return self.measured.iou
+
+    @property
+    def chamfer(self) -> float:
+        """Distance of the surfaces, in units of the largest extent; NaN without a replica and for drawings."""
+        return self.measured.chamfer
+
+    @property
+    def depth(self) -> float:
+        """Difference of the depth pictures; NaN without a replica and for drawings."""
+        return self.measured.depth
+
+    @property
+    def measures(self) -> Mapping[str, float]:
+        """All measures by name; NaN for what cannot be measured."""
+        return self.measured.by_name()
 
 
-_MEASURES = ("distance", "iou", "chamfer", "depth")
+MEASURES = tuple(field.name for field in fields(Measures))
+"""The names of all measures."""
 
 
 def to_record(result: Result, slug: str) -> dict[str, Any]:
@@ -63,7 +93,8 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
         "parameters": result.parameters,
         "active": list(result.active),
         "at_limit": list(result.at_limit),
-        **{name: _finite(getattr(result, name)) for name in _MEASURES},
+        **{name: _finite(value) for name, value in result.measures.items()},
+        "grade": result.grade,
         "compatible": result.compatible,
         "group": result.group,
         "error": result.error,
@@ -74,16 +105,28 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
 
 def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
     """The inverse of ``to_record``, but for the reference's shape."""
-    measures: dict[str, Any] = {name: math.nan if entry.get(name) is None else entry[name] for name in _MEASURES}
     return Result(
         path=Path(entry["path"]) if entry["path"] else None,
         active=tuple(entry["active"]),
         at_limit=tuple(entry["at_limit"]),
         replica=replica,
         reference=None,
-        **measures,
+        measured=Measures(**{name: math.nan if entry.get(name) is None else entry[name] for name in MEASURES}),
+        grade=grade_in(entry),
         **{name: entry[name] for name in ("name", "parameters", "compatible", "group", "error")},
     )
+
+
+def judge_in(record: Mapping[str, Any]) -> JudgeName:
+    """By which judge a run's references have their grades; the first versions had the paper's alone."""
+    judge: JudgeName = record.get("judge", "paper")
+    return judge
+
+
+def grade_in(entry: Mapping[str, Any]) -> Grade:
+    """The grade of a reference in a run's record; the first versions noted only whether it was compatible."""
+    grade: Grade | None = entry.get("grade")
+    return grade or ("replicated" if entry["compatible"] else "different")
 
 
 def replica_path(replica: Shape | None, slug: str) -> str | None:

@@ -31,8 +31,8 @@ from shapewright.threads import in_threads
 def causes(
     cases: Sequence[Case], predictor: Predictor | None, crew: Workers, judge: Judge, stages: Stages
 ) -> list[Case]:
-    """The same cases; those that are not compatible know better replicas and their causes."""
-    misfits = [case for case in cases if not case.compatible]
+    """The same cases; those that are not replicated know better replicas and their causes."""
+    misfits = [case for case in cases if not case.replicated]
     if not misfits:
         return list(cases)
     space, settings = crew.procedure.space, judge.settings

@@ -21,7 +21,7 @@ _FAR = 1.25  # thresholds: an outlier that comes nearer than this is only an unu
 
 
 def diagnosed(space: ParameterSpace, threshold: float, case: Case) -> tuple[Cause, ...]:
-    """The causes of one case that is not compatible, the chief one first.
+    """The causes of one case that is not replicated, the chief one first.
 
     A search that ends below the threshold is no proof that nothing is missing: shapes grow fat to make up for parts
     that they lack. So the surfaces have a say: other parameters or longer Ranges are the chief cause only when they

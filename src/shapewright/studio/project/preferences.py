@@ -12,7 +12,7 @@ from shapewright.studio.wire.changes import ChosenSettings
 
 SHAPE_SECONDS = 5.0
 """Seconds that one shape may take in the studio: half of what a fit on the command line gives it, because one waits."""
-_FIT = ("samples", "epochs", "refine", "rounds", "seed", "threshold", "fidelity", "shape_seconds")
+_FIT = ("samples", "epochs", "refine", "rounds", "seed", "threshold", "vif", "shape_seconds")
 _KEPT = (*groups()["building"], *groups()["judging"], "seed", "workers")
 """The settings that stay when another preset is chosen: no preset says anything about them."""
 

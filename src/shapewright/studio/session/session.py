@@ -8,7 +8,7 @@ from functools import partial
 from importlib.metadata import version
 from typing import Any, Literal, TypeAlias, get_args
 
-from shapewright.judging.paper import Metric, fidelity_metric, light_field_metric
+from shapewright.judging.paper import Metric, light_field_metric, vif_metric
 from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import EXPLANATION, RunError
 from shapewright.runs.marks import pairs, replace_pairs
@@ -270,4 +270,4 @@ class Session:
         """What the next fit measures by."""
         settings = self.preferences.settings
         solid = self.display.listed.dimension == 3
-        return light_field_metric(settings.threshold) if solid else fidelity_metric(settings.fidelity)
+        return light_field_metric(settings.threshold) if solid else vif_metric(settings.vif)

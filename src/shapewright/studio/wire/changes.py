@@ -36,7 +36,7 @@ class ChosenSettings(Struct, frozen=True, kw_only=True):
     rounds: int
     seed: int
     threshold: float
-    fidelity: float
+    vif: float
     shape_seconds: float
 
 

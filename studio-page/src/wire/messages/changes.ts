@@ -25,7 +25,7 @@ export interface ChosenSettings {
   rounds: number;
   seed: number;
   threshold: number;
-  fidelity: number;
+  vif: number;
   shape_seconds: number;
 }
 

@@ -8,6 +8,6 @@ export const SETTINGS = {
   rounds: { help: "Rounds of more samples around the parameters found so far.", least: 0, most: null, step: 1 },
   refine: { help: "How long to search from the prediction.", choices: ["off", "quick", "thorough"] },
   threshold: { help: "Largest light-field distance of a compatible mesh.", least: 0, most: null, step: "any" },
-  fidelity: { help: "Least visual fidelity (VIF) of a compatible drawing.", least: 0, most: 1, step: "any" },
+  vif: { help: "Least visual information fidelity of a compatible drawing.", least: 0, most: 1, step: "any" },
   seed: { help: "Of everything random: the same seed gives the same result.", least: 0, most: null, step: 1 },
 } as const;
