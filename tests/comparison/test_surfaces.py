@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from shapewright.comparison.surfaces import chamfer, sample
+from shapewright.comparison.surfaces import sample
 from shapewright.comparison.views import intersection_over_union
-from shapewright.modelling.solids import box, cylinder
+from shapewright.modelling.solids import box
 from shapewright.shapes import Mesh
 
 
@@ -13,15 +13,6 @@ def test_samples_lie_on_the_surface_in_proportion_to_area():
     assert on_face.any(axis=1).all()
     assert on_face[:, 0].mean() == pytest.approx(2 / 10, abs=0.02)
     assert np.array_equal(points, sample(box((2, 1, 1)).mesh(), 20_000, seed=1).points)
-
-
-def test_chamfer_knows_how_far_apart_surfaces_are():
-    a = box((1, 0.1, 1)).mesh()
-    assert chamfer(a, a) < 0.02
-    assert chamfer(a, a.transformed(np.eye(3) * 7.0)) < 0.02
-    thicker = chamfer(a, box((1, 0.3, 1)).mesh())
-    assert 0.03 < thicker < 0.1 < chamfer(a, box((0.1, 1, 0.1)).mesh())
-    assert chamfer(a, cylinder((1, 1, 1)).mesh()) == pytest.approx(chamfer(cylinder((1, 1, 1)).mesh(), a), abs=0.01)
 
 
 def test_a_surface_without_area_is_refused():

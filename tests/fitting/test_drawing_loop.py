@@ -4,7 +4,6 @@ import json
 from dataclasses import replace
 from typing import Annotated
 
-import numpy as np
 import pytest
 
 import shapewright as sw
@@ -54,7 +53,7 @@ def test_tables_are_replicated_and_others_grouped(iteration):
     }
     for name, (height, leg, bar) in VALUES.items():
         result = iteration[name]
-        assert isinstance(result.replica, sw.Drawing) and np.isnan(result.chamfer)
+        assert isinstance(result.replica, sw.Drawing) and result.chamfer < 0.02
         assert result.parameters["height"] == pytest.approx(height, abs=0.05)
         assert result.parameters["leg"] == pytest.approx(leg, abs=0.03) and result.parameters["bar"] == bar
 

@@ -9,6 +9,7 @@ import shapewright as sw
 from shapewright import Range
 from shapewright.building import Build, Workers
 from shapewright.comparison.blurred import SCALES, SMALL, UNIT, BlurredDifference
+from shapewright.comparison.gaps import Boundary
 from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
 from shapewright.judging.drawing_target import DrawingTarget
 from shapewright.judging.judge import Judge
@@ -68,14 +69,14 @@ def test_residuals_and_overlaps_are_of_areas(judge):
     # Blurs keep the ink; each scale has all of it.
     ink = other.sum() / UNIT / len(SCALES) * (2 * HALF / SMALL) ** 2
     assert ink == pytest.approx(2 * 0.02 * 0.64, rel=0.1)
-    iou, surface = overlaps(judge, builds(table(height=0.4), table(), None, table(0.1)))
+    iou, apart = overlaps(judge, builds(table(height=0.4), table(), None, table(0.1)))
     assert (
         iou[0] == pytest.approx(1)
         and iou[1] < 0.4
         and np.isnan(iou[2])
         and iou[3] == pytest.approx(1 - 0.0256 / 0.188, abs=0.01)
     )
-    assert np.isnan(surface).all()
+    assert apart[0] < 0.001 < apart[3] < 0.01 < apart[1] and np.isnan(apart[2])
 
 
 def test_misfits_are_grouped_by_outline(judge):
@@ -141,7 +142,9 @@ def test_a_drawing_measures_what_the_comparisons_measure():
     measures = target.measures(replica)
     assert measures.distance == max(0.0, 1.0 - visual_information_fidelity(reference, replica))
     assert measures.iou == intersection_over_union(reference, replica)
-    assert np.isnan([measures.chamfer, measures.depth]).all()
+    gaps = Boundary(reference).gaps(Boundary(replica))
+    assert (measures.chamfer, measures.f1, measures.f2) == (gaps.chamfer, gaps.f_score(0.01), gaps.f_score(0.02))
+    assert np.isnan([measures.volume_iou, measures.depth]).all()
     assert target.nearest(replica) == (measures.distance, 0) and target.nearest(block(1).mesh())[1] == 0
     finest = BlurredDifference(reference).residual(replica)[target.parts[-1]]
     assert target.cost(replica) == np.abs(finest).sum() > target.enough

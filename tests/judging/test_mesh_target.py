@@ -5,9 +5,9 @@ import pytest
 
 import shapewright as sw
 from shapewright.building import Build
-from shapewright.comparison import light_field
+from shapewright.comparison import light_field, volumes
+from shapewright.comparison.gaps import Surface
 from shapewright.comparison.light_field.aligned import AlignedCost
-from shapewright.comparison.surfaces import chamfer
 from shapewright.comparison.views import depth_difference, intersection_over_union
 from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.judge import Judge, target_of
@@ -34,14 +34,18 @@ def is_nothing(measures):
 def test_it_measures_what_the_comparisons_measure():
     reference, replica = table(), table(0.5)
     measures = target_of(reference, sw.Settings(seed=3, align="upright")).measures(replica)
+    gaps = Surface(reference, 3).gaps(Surface(replica, 3))
     assert measures == Measures(
-        light_field.distance(reference, replica, "upright"),
-        intersection_over_union(reference, replica),
-        chamfer(reference, replica, seed=3),
-        depth_difference(reference, replica),
-        Fidelity(reference).evidence(replica).value,
+        distance=light_field.distance(reference, replica, "upright"),
+        iou=intersection_over_union(reference, replica),
+        chamfer=gaps.chamfer,
+        depth=depth_difference(reference, replica),
+        fidelity=Fidelity(reference).evidence(replica).value,
+        volume_iou=volumes.intersection_over_union(volumes.Volume.of(reference), volumes.Volume.of(replica)),
+        f1=gaps.f_score(0.01),
+        f2=gaps.f_score(0.02),
     )
-    assert measures.chamfer != chamfer(reference, replica, seed=0)
+    assert measures.chamfer != target_of(reference, SETTINGS).measures(replica).chamfer
 
 
 def test_what_is_known_is_not_measured_again():

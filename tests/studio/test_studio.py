@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from shapewright.comparison.surfaces import chamfer
+from shapewright.comparison.gaps import Surface
 from shapewright.procedures import load_procedure
 from shapewright.references import Collection
 from shapewright.studio.project.workspace import Project
@@ -126,7 +126,8 @@ def test_chamfer_is_sampled_with_the_seed_of_the_settings(running: Studio) -> No
         running.send("PATCH", "/api/settings", {"seed": seed})
         running.say(type="evaluate", id=number, slug="table-1", parameters={"height": 0.8}, residuals=False)
         told = running.next(lambda m, number=number: m["type"] == "distance" and m["id"] == number)
-        assert told["chamfer"] == pytest.approx(chamfer(reference, replica, seed=seed), abs=1e-9)
+        gaps = Surface(reference, seed).gaps(Surface(replica, seed))
+        assert told["chamfer"] == pytest.approx(gaps.chamfer, abs=1e-9)
 
 
 def test_of_evaluations_that_wait_only_the_newest_counts(running: Studio) -> None:

@@ -1,11 +1,10 @@
-"""Points on surfaces, and the distance between the surfaces of two shapes."""
+"""Points on surfaces."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from shapewright.shapes import Floats, Ints, Mesh
 
@@ -48,15 +47,3 @@ def area(mesh: Mesh) -> float:
     """Of the whole surface, in square units of the mesh."""
     a, b, c = mesh.triangles.transpose(1, 0, 2)
     return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2.0
-
-
-def chamfer(first: Mesh, second: Mesh, points: int = 2000, seed: int = 0) -> float:
-    """Chamfer distance of the normalised meshes, in units of the largest extent: the mean of both directed means.
-
-    Each surface is sampled at ``points`` points, so two equal shapes are not quite at 0 (about 0.01 at 2,000 points)
-    unless the sampling falls alike.
-    """
-    a, b = (sample(mesh.normalised(), points, seed).points for mesh in (first, second))
-    there, _ = cKDTree(b).query(a)
-    back, _ = cKDTree(a).query(b)
-    return float((there.mean() + back.mean()) / 2.0)

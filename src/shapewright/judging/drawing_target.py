@@ -10,6 +10,7 @@ import numpy as np
 
 from shapewright.comparison import outline
 from shapewright.comparison.blurred import PARTS, UNIT, BlurredDifference
+from shapewright.comparison.gaps import Boundary
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
 from shapewright.judging.fidelity import Fidelity
@@ -33,6 +34,7 @@ class DrawingTarget:
     def __init__(self, shape: Drawing, settings: Settings) -> None:
         self.shape, self._settings, self._fidelity = shape, settings, Fidelity(shape)
         self._describe = functools.cache(functools.partial(_outline, shape))
+        self._boundary = functools.cache(functools.partial(Boundary, shape))
         self._blurred = functools.cache(functools.partial(BlurredDifference, shape))
 
     @property
@@ -70,8 +72,15 @@ class DrawingTarget:
         distance = self.nearest(replica)[0] if distance is None else distance
         if math.isnan(distance) or not isinstance(replica, Drawing):
             return Measures()
-        fidelity = self.evidence(replica).value if fidelity is None else fidelity
-        return Measures(distance, intersection_over_union(self.shape, replica), fidelity=fidelity)
+        gaps = self._boundary().gaps(Boundary(replica))
+        return Measures(
+            distance,
+            iou=intersection_over_union(self.shape, replica),
+            chamfer=gaps.chamfer,
+            fidelity=self.evidence(replica).value if fidelity is None else fidelity,
+            f1=gaps.f_score(0.01),
+            f2=gaps.f_score(0.02),
+        )
 
     def compatible(self, measures: Measures) -> bool:
         return self.metric.accepts(measures.distance)

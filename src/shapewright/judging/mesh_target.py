@@ -9,12 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from shapewright.comparison import light_field
+from shapewright.comparison import light_field, views, volumes
+from shapewright.comparison.gaps import Surface
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.leaders import LARGE, group_by_leaders
 from shapewright.comparison.light_field.aligned import AlignedCost, nearest_field
-from shapewright.comparison.surfaces import chamfer
-from shapewright.comparison.views import depth_difference, intersection_over_union
 from shapewright.judging.calibration import is_same
 from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.paper import Metric, light_field_metric
@@ -38,6 +37,8 @@ class MeshTarget:
     def __init__(self, shape: Mesh, settings: Settings, cache: Path | None = None) -> None:
         self.shape, self._settings, self._fidelity = shape, settings, Fidelity(shape)
         self._describe = functools.cache(functools.partial(_descriptor, shape, cache))
+        self._surface = functools.cache(functools.partial(Surface, shape, settings.seed))
+        self._volume = functools.cache(functools.partial(volumes.Volume.of, shape))
         self._aligned = functools.cache(functools.partial(AlignedCost, shape))
 
     @property
@@ -78,12 +79,16 @@ class MeshTarget:
         distance = self.nearest(replica)[0] if distance is None else distance
         if math.isnan(distance) or not isinstance(replica, Mesh):
             return Measures()
+        gaps = self._surface().gaps(Surface(replica, self._settings.seed))
         return Measures(
             distance,
-            intersection_over_union(self.shape, replica),
-            chamfer(self.shape, replica, seed=self._settings.seed),
-            depth_difference(self.shape, replica),
-            self.evidence(replica).value if fidelity is None else fidelity,
+            iou=views.intersection_over_union(self.shape, replica),
+            chamfer=gaps.chamfer,
+            depth=views.depth_difference(self.shape, replica),
+            fidelity=self.evidence(replica).value if fidelity is None else fidelity,
+            volume_iou=volumes.intersection_over_union(self._volume(), volumes.Volume.of(replica)),
+            f1=gaps.f_score(0.01),
+            f2=gaps.f_score(0.02),
         )
 
     def compatible(self, measures: Measures) -> bool:

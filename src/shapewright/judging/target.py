@@ -21,9 +21,12 @@ class Measures:
 
     distance: float = math.nan  # normalised light-field distance of meshes, 1 - VIF of drawings; 0 is equal
     iou: float = math.nan  # intersection over union, of silhouettes or of areas, 0 to 1
-    chamfer: float = math.nan  # Chamfer distance of surfaces, in units of the largest extent; of meshes only
+    chamfer: float = math.nan  # mean distance of surfaces, or of outlines, in units of the largest extent
     depth: float = math.nan  # difference of depth pictures, 0 to 1; of meshes only
     fidelity: float = math.nan  # probability that a person calls the two the same, 0 to 1
+    volume_iou: float = math.nan  # intersection over union of volumes, 0 to 1; of meshes that enclose one
+    f1: float = math.nan  # F-score of surfaces, or of outlines, at 1 % of the largest extent, 0 to 1
+    f2: float = math.nan  # the same at 2 %
 
     def by_name(self) -> dict[str, float]:
         return dict(vars(self))

@@ -66,7 +66,7 @@ class Result:
 
     @property
     def chamfer(self) -> float:
-        """Distance of the surfaces, in units of the largest extent; NaN without a replica and for drawings."""
+        """Distance of the surfaces or outlines, in units of the largest extent; NaN without a replica."""
         return self.measured.chamfer
 
     @property

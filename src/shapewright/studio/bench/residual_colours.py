@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from shapewright.comparison.surface_distance import NearSurface
 from shapewright.shapes import Floats, Ints, Mesh
-from shapewright.studio.bench.surface_distance import NearSurface
 
 LIMIT = 0.1
 """Distance at the end of the colour scale, in units of the largest extent."""

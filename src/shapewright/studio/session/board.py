@@ -36,7 +36,7 @@ class ReferenceState:
     replica: Address | None = None
     distance: float | None = None
     iou: float | None = None  # of the silhouettes
-    chamfer: float | None = None  # distance of the surfaces
+    chamfer: float | None = None  # distance of the surfaces or outlines
     compatible: bool = False
     group: int | None = None
     stage: Stage = "none"

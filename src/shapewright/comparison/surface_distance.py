@@ -43,9 +43,16 @@ class NearSurface:
 
     def distances(self, points: Floats) -> Floats:
         """(N,) for points (N, 3): positive outside, negative inside where the surface is closed, else not negative."""
+        return self._measured(points, self.closed)
+
+    def lengths(self, points: Floats) -> Floats:
+        """(N,) for points (N, 3): the distances without a sign."""
+        return self._measured(points, False)
+
+    def _measured(self, points: Floats, signed: bool) -> Floats:
         distances = np.empty(len(points))
         points = np.ascontiguousarray(points, dtype=np.float64)
-        _measure(points, self._corners, self._normals, self._nodes, self._boxes, self.closed, distances)
+        _measure(points, self._corners, self._normals, self._nodes, self._boxes, signed, distances)
         return distances
 
 
