@@ -14,8 +14,9 @@ from PIL import Image, ImageDraw
 
 from broken_disk import full_after, hidden, shown
 from shapewright.judging.paper import FAR
+from shapewright.judging.target import Measures
 from shapewright.report import write_report
-from shapewright.report.page import GREEN, RED, YELLOW, colour
+from shapewright.report.scale import GREEN, RED, YELLOW, colour
 from shapewright.runs.changes import Move, compare
 from shapewright.runs.folder import RunError
 
@@ -172,6 +173,67 @@ def test_the_head_of_the_page_gives_the_counts(page: Page) -> None:
         assert words in page.text
 
 
+def by_fidelity() -> dict[str, Any]:
+    """The same references with a fidelity, a grade and a region each; all but box and yew are compatible."""
+    values = {"oak": 0.9, "elm": 0.35, "ash": 0.1, "fir": 0.25, "yew": 0.02, "box": None, EVIL: 0.6}
+    region = {"size": 0.314, "low": [-0.1, -0.4, 0.0], "high": [0.1, -0.09, 0.1], "share": 0.05}
+    contents = record(typical()["references"], judge="fidelity", settings={"judge": "fidelity"})
+    for one in contents["references"]:
+        value = values[one["name"]]
+        grade = "replicated" if (value or 0) >= 0.5 else "close" if (value or 0) >= 0.2 else "different"
+        regions = [region] if one["name"] == "elm" else []
+        one |= {
+            "fidelity": value,
+            "grade": grade,
+            "missing": regions,
+            "surplus": [],
+            "compatible": one["name"] != "yew",
+        }
+    return contents
+
+
+@pytest.fixture
+def judged(tmp_path: Path) -> Page:
+    return Page(write_report(saved(tmp_path / "004", by_fidelity())))
+
+
+def test_the_count_in_front_is_what_a_person_calls_replicated_and_the_papers_is_beside(judged: Page) -> None:
+    for words in (
+        "2 of 7 replicated: fidelity at least 0.5",
+        "2 close",
+        "3 different",
+        "6 of 7 by the paper's measure: distance at most 0.18",
+        "2 groups of 4 misfits",
+        "replicated from 0.5",
+        "close from 0.2",
+    ):
+        assert words in judged.text
+    assert [bar["data-pair"] for bar in judged.named("rect")] == ["5", "6", "1", "0", "2", "3", "4"]
+
+
+def test_cards_have_the_colour_of_their_grade_and_tell_the_longest_region(judged: Page) -> None:
+    colours = {pair["name"]: pair["colour"] for pair in judged.data["pairs"]}
+    green, yellow, red = ("#" + bytes(rgb).hex() for rgb in (GREEN, YELLOW, RED))
+    assert (colours["oak"], colours["elm"], colours["ash"], colours["yew"]) == (green, yellow, red, red)
+    elm = next(pair for pair in judged.data["pairs"] if pair["name"] == "elm")
+    assert (elm["title"], elm["value"]) == ("Fidelity, close", "0.350")
+    assert elm["regions"] == [{"kind": "missing", "sizes": ["31 %"]}, {"kind": "surplus", "sizes": []}]
+    assert judged.text.count("missing 31 %") == 1 and judged.source.count('<svg class="regions"') >= 1
+
+
+def test_a_table_has_the_mean_of_each_measure_that_the_run_holds(judged: Page) -> None:
+    fidelity, iou = (Measures.words()[name] for name in ("fidelity", "iou"))
+    assert f"{iou} 0.8750 0.8750" in judged.text and f"{fidelity} 0.3700 0.7500" in judged.text
+    assert Measures.words()["depth"] not in judged.text
+
+
+def test_a_run_of_the_papers_judge_is_compared_by_the_papers_measure(tmp_path: Path) -> None:
+    earlier = saved(tmp_path / "002", typical())
+    text = Page(write_report(saved(tmp_path / "003", by_fidelity()), earlier)).text
+    assert "judged by the paper's measure, and so the two are compared by it" in text
+    assert "+4 since run 002: 4 newly compatible, 0 lost" in text
+
+
 def test_misfits_come_first_in_their_groups_and_the_representative_leads(page: Page) -> None:
     assert [pair["name"] for pair in page.data["pairs"]] == ["fir", "elm", "ash", "yew", "box", "oak", EVIL]
     assert "+2 more" in page.text
@@ -206,7 +268,8 @@ def test_names_cannot_break_out_of_the_page(page: Page) -> None:
 
 def test_the_data_of_a_pair(page: Page) -> None:
     pair = page.data["pairs"][0]
-    assert (pair["distance"], pair["iou"], pair["chamfer"]) == ("0.250", "0.875", "0.0123")
+    assert (pair["title"], pair["value"]) == ("Distance, incompatible", "0.250")
+    assert [number for _, number in pair["measures"]] == ["0.2500", "0.8750", "0.0123"]
     assert pair["link"] == "replicas/fir.glb"
     assert pair["values"] == [
         ["0.75", 0.5, True, False],
@@ -285,7 +348,8 @@ def test_a_run_where_all_is_well_has_no_section_of_misfits(tmp_path: Path) -> No
 def test_numbers_that_are_not_finite_are_shown_as_unknown(tmp_path: Path) -> None:
     contents = record([reference("oak", float("nan"), compatible=False, iou=float("inf"))])
     pair = Page(write_report(saved(tmp_path / "001", contents))).data["pairs"][0]
-    assert (pair["distance"], pair["iou"], pair["tint"]) == ("–", "–", None)
+    assert (pair["value"], pair["tint"]) == ("–", None)
+    assert [words for words, _ in pair["measures"]] == [Measures.words()["chamfer"]]
 
 
 def test_the_change_since_the_previous_run(tmp_path: Path) -> None:
@@ -297,6 +361,7 @@ def test_the_change_since_the_previous_run(tmp_path: Path) -> None:
         "±0 since run 002: 1 newly compatible, 1 lost",
         "The threshold was 0.15 then. The procedure is the same.",
         "References: 5 added, 1 removed.",
+        "moved away; they are compatible as before",
         "Newly compatible 1 oak 0.30 → 0.05",
         "Lost 1 elm 0.10 → 0.21",
     ):

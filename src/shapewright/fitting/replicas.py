@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from shapewright.building import Build, Workers
 from shapewright.fitting.learning import Lesson
 from shapewright.fitting.start import Start
 from shapewright.judging.judge import Judge
+from shapewright.judging.verdict import Evidence
 from shapewright.parameters import Parameters
 from shapewright.progress import Stages
 from shapewright.search.search import SearchStart, refine
@@ -29,12 +31,17 @@ class Replicas:
 
     builds: tuple[Build | None, ...]  # None where nothing was tried yet
     distances: Floats  # by the paper's measure, (N,); NaN where there is nothing to measure
-    fidelities: Floats  # (N,); NaN where there is nothing to measure
+    evidence: tuple[Evidence, ...]  # of their fidelity; NaN where there is nothing to measure
     fields: Ints  # the light field in which the two differ least, (N,)
 
     @classmethod
     def none(cls, count: int) -> Replicas:
-        return cls((None,) * count, np.full(count, np.nan), np.full(count, np.nan), np.zeros(count, dtype=np.int64))
+        return cls((None,) * count, np.full(count, np.nan), (Evidence(math.nan),) * count, np.zeros(count, np.int64))
+
+    @property
+    def fidelities(self) -> Floats:
+        """(N,); NaN where there is nothing to measure."""
+        return np.array([each.value for each in self.evidence])
 
     @property
     def parameters(self) -> list[Parameters]:
@@ -44,17 +51,16 @@ class Replicas:
     def tried(self, vectors: Sequence[Parameters], crew: Workers, judge: Judge) -> Replicas:
         """Build one vector for each reference, and keep it where it is better by the judge of the settings."""
         builds = crew.build(vectors)
-        (distances, fields), fidelities = judge.nearest(builds), judge.fidelities(builds)
+        (distances, fields), evidence = judge.nearest(builds), judge.evidence(builds)
         nearer = (distances < self.distances) | (np.isnan(self.distances) & ~np.isnan(distances))
         if judge.settings.judge == "fidelity":
-            same = (fidelities == self.fidelities) | np.isnan(fidelities) | np.isnan(self.fidelities)
-            nearer = (fidelities > self.fidelities) | (same & nearer)
-        better = [old is None or bool(near) for old, near in zip(self.builds, nearer, strict=True)]
-        best = tuple(new if use else old for use, new, old in zip(better, builds, self.builds, strict=True))
+            old, new = self.fidelities, np.array([each.value for each in evidence])
+            nearer = (new > old) | (nearer & ((new == old) | np.isnan(new) | np.isnan(old)))
+        better = [build is None or bool(near) for build, near in zip(self.builds, nearer, strict=True)]
         return Replicas(
-            best,
+            tuple(b if use else a for use, b, a in zip(better, builds, self.builds, strict=True)),
             np.where(better, distances, self.distances),
-            np.where(better, fidelities, self.fidelities),
+            tuple(b if use else a for use, b, a in zip(better, evidence, self.evidence, strict=True)),
             np.where(better, fields, self.fields),
         )
 

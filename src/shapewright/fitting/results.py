@@ -29,7 +29,7 @@ def judged(
     """The result of each reference, and the groups of those that are not replicated."""
     stages.begin("compare", len(judge.references))
     builds = [build for build in replicas.builds if build]
-    measures = judge.measures(builds, replicas.distances, replicas.fidelities)
+    measures = judge.measures(builds, replicas.distances, replicas.evidence)
     grades, compatible = judge.grades(measures), judge.compatible(measures)
     groups = judge.groups(grades)
     group_of = {name: i for i, group in enumerate(groups) for name in group.members}
@@ -47,9 +47,11 @@ def judged(
             group=group_of.get(reference.name),
             reference=reference.shape,
             error=_error(build, its.distance),
+            missing=seen.missing,
+            surplus=seen.surplus,
         )
-        for reference, build, its, grade, same in zip(
-            judge.references, builds, measures, grades, compatible, strict=True
+        for reference, build, its, seen, grade, same in zip(
+            judge.references, builds, measures, replicas.evidence, grades, compatible, strict=True
         )
     )
     return results, groups

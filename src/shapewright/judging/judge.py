@@ -16,7 +16,7 @@ from shapewright.judging.drawing_target import DrawingTarget
 from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import Measures, Target
-from shapewright.judging.verdict import Grade, Verdict
+from shapewright.judging.verdict import Evidence, Grade, Verdict
 from shapewright.references import Collection
 from shapewright.search.objective import Criterion, Measure, measure_of
 from shapewright.settings import Settings
@@ -84,15 +84,16 @@ class Judge:
         distances, fields = [distance for distance, _ in found], [field for _, field in found]
         return np.array(distances, dtype=np.float64), np.array(fields, dtype=np.int64)
 
-    def fidelities(self, builds: Sequence[Build], rows: Rows | None = None) -> Floats:
-        """The fidelity of each build to its reference, those of ``rows`` or all: (N,); NaN where there is none."""
+    def evidence(self, builds: Sequence[Build], rows: Rows | None = None) -> list[Evidence]:
+        """The fidelity of each build to its reference, those of ``rows`` or all, and where the two differ."""
         pairs = zip(self._targets(rows), builds, strict=True)
-        found = in_threads(lambda pair: pair[0].evidence(pair[1].shape).value, pairs, self.settings.workers)
-        return np.array(found, dtype=np.float64)
+        return in_threads(lambda pair: pair[0].evidence(pair[1].shape), pairs, self.settings.workers)
 
-    def measures(self, builds: Sequence[Build], distances: Floats, fidelities: Floats | None = None) -> list[Measures]:
-        """All that can be measured of one build for each reference; distances and fidelities (N,) are known already."""
-        known = [None] * len(builds) if fidelities is None else fidelities.tolist()
+    def measures(
+        self, builds: Sequence[Build], distances: Floats, evidence: Sequence[Evidence] | None = None
+    ) -> list[Measures]:
+        """All that can be measured of one build for each reference. distances, (N,), and evidence are known already."""
+        known = [None] * len(builds) if evidence is None else [each.value for each in evidence]
         each = zip(self.targets, builds, distances.tolist(), known, strict=True)
         return in_threads(lambda one: one[0].measures(one[1].shape, *one[2:]), each, self.settings.workers)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol, Self
+from typing import Annotated, Protocol, Self, get_type_hints
 
 from shapewright.comparison.grouping import Group
 from shapewright.judging.paper import Metric
@@ -17,19 +17,24 @@ from shapewright.shapes import Shape
 
 @dataclass(frozen=True)
 class Measures:
-    """How a replica differs from its reference; NaN for what cannot be measured."""
+    """How a replica differs from its reference; NaN for what cannot be measured. Records and tables go over these."""
 
-    distance: float = math.nan  # normalised light-field distance of meshes, 1 - VIF of drawings; 0 is equal
-    iou: float = math.nan  # intersection over union, of silhouettes or of areas, 0 to 1
-    chamfer: float = math.nan  # mean distance of surfaces, or of outlines, in units of the largest extent
-    depth: float = math.nan  # difference of depth pictures, 0 to 1; of meshes only
-    fidelity: float = math.nan  # probability that a person calls the two the same, 0 to 1
-    volume_iou: float = math.nan  # intersection over union of volumes, 0 to 1; of meshes that enclose one
-    f1: float = math.nan  # F-score of surfaces, or of outlines, at 1 % of the largest extent, 0 to 1
-    f2: float = math.nan  # the same at 2 %
+    distance: Annotated[float, "The paper's: light-field distance of meshes, 1 - VIF of drawings"] = math.nan
+    iou: Annotated[float, "IoU of silhouettes, or of areas"] = math.nan
+    chamfer: Annotated[float, "Chamfer distance of surfaces, or of outlines, in largest extents"] = math.nan
+    depth: Annotated[float, "Difference of depth pictures, 0 to 1; of meshes only"] = math.nan
+    fidelity: Annotated[float, "Fidelity: how likely a person calls the two the same"] = math.nan
+    volume_iou: Annotated[float, "IoU of volumes; of meshes that enclose one"] = math.nan
+    f1: Annotated[float, "F-score of surfaces, or of outlines, at 1 % of the largest extent"] = math.nan
+    f2: Annotated[float, "F-score of surfaces, or of outlines, at 2 % of the largest extent"] = math.nan
 
     def by_name(self) -> dict[str, float]:
         return dict(vars(self))
+
+    @classmethod
+    def words(cls) -> dict[str, str]:
+        """What each measure is, by name."""
+        return {name: hint.__metadata__[0] for name, hint in get_type_hints(cls, include_extras=True).items()}
 
 
 class Target(Protocol):

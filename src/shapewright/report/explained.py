@@ -52,6 +52,25 @@ def outlines(reference: Mapping[str, Any]) -> tuple[list[str], list[str]]:
     return on["unexplained"], on["surplus"]
 
 
+def boxes(reference: Mapping[str, Any]) -> tuple[list[str], list[str]]:
+    """The same of the regions that the judge found; entries of a run's record."""
+    kinds = ("missing", "surplus")
+    missing, surplus = (
+        [_outline(_box(region), reference) for region in reference.get(kind, ())[:SHOWN]] for kind in kinds
+    )
+    return missing, surplus
+
+
+def _box(region: Mapping[str, Any]) -> Floats:
+    """(8, 3): see ``_corners``."""
+    return np.array(list(product(*zip(region["low"], region["high"], strict=True))), dtype=np.float64)
+
+
+def _outline(corners: Floats, reference: Mapping[str, Any]) -> str:
+    flat = (reference.get("replica") or "").endswith(".svg")
+    return _frame(corners) if flat else _path(corners)
+
+
 def _corners(region: Mapping[str, Any]) -> Floats:
     """(8, 3): neighbours along an axis differ in one bit of their index."""
     half = np.array(list(product((-0.5, 0.5), repeat=3))) * np.array(region["size"])

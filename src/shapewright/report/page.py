@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Iterable
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -12,16 +13,14 @@ from urllib.parse import quote
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from PIL import Image
 
-from shapewright.judging.paper import FAR, Metric
-from shapewright.report.explained import embedded, outlines, read_explanation
+from shapewright.judging.paper import Metric
+from shapewright.judging.target import Measures
+from shapewright.report.explained import boxes, embedded, outlines, read_explanation
+from shapewright.report.scale import GRADES, Scale
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import read_record
+from shapewright.runs.result import grade_in
 from shapewright.storage import write_file
-
-# The paper's colours: green for a perfect replica, yellow at the threshold, red where the metric says far.
-GREEN, YELLOW, RED = (62, 166, 100), (247, 205, 70), (222, 74, 62)
-TINTS = 25
-"""Filters that tint the thumbnails; each has the nearest one, not one of its own."""
 
 
 def write_report(folder: str | Path, previous: str | Path | None = None, explanation: Path | None = None) -> Path:
@@ -60,38 +59,28 @@ def write_report(folder: str | Path, previous: str | Path | None = None, explana
     return path
 
 
-def colour(distance: float | None, threshold: float, far: float = FAR) -> str:
-    """#rrggbb of a distance: green at 0, yellow at the threshold, red at ``far`` thresholds and on; grey for None."""
-    if distance is None:
-        return "#9a9a9a"
-    near = distance <= threshold
-    start, end = (GREEN, YELLOW) if near else (YELLOW, RED)
-    part = distance / threshold if near else min(1.0, (distance / threshold - 1.0) / (far - 1.0))
-    return "#" + "".join(f"{round(a + (b - a) * part):02x}" for a, b in zip(start, end, strict=True))
-
-
 def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] | None) -> dict[str, Any]:
     """What the template shows. A pair is known by its index in the order of the page."""
-    threshold = record["threshold"]
-    metric = Metric.of_record(record)
-    far = metric.far / threshold
+    scale, metric = Scale.of(record), Metric.of_record(record)
     references = {reference["name"]: reference for reference in record["references"]}
 
-    def by_distance(names: list[str]) -> list[str]:
-        return sorted(names, key=lambda name: (references[name]["distance"] is None, references[name]["distance"] or 0))
+    def ordered(names: Iterable[str]) -> list[str]:
+        return scale.ordered([references[name] for name in names])
 
     groups = [
-        [group["representative"], *by_distance([name for name in group["members"] if name != group["representative"]])]
+        [group["representative"], *ordered(name for name in group["members"] if name != group["representative"])]
         for group in record["groups"]
     ]
     grouped = {name for group in groups for name in group}
-    compatible = by_distance([name for name, reference in references.items() if reference["compatible"]])
-    ungrouped = by_distance([name for name in references if name not in grouped and not references[name]["compatible"]])
-    order = [*(name for group in groups for name in group), *ungrouped, *compatible]
+    grades = {name: grade_in(reference) for name, reference in references.items()}
+    replicated = ordered(name for name in references if grades[name] == "replicated")
+    ungrouped = ordered(name for name in references if name not in grouped and grades[name] != "replicated")
+    order = [*(name for group in groups for name in group), *ungrouped, *replicated]
     index = {name: i for i, name in enumerate(order)}
     told = explanation["references"] if explanation else {}
     parameters = record["procedure"]["parameters"]
-    pairs = [_pair(references[name], folder, threshold, far, parameters, told.get(name)) for name in order]
+    pairs = [_pair(references[name], folder, scale, parameters, told.get(name)) for name in order]
+    criterion = metric.criterion if "metric" in record else f"distance at most {_value(record['threshold'])}"
     return {
         "record": record,
         "created": _date(record["created"]),
@@ -100,15 +89,16 @@ def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] 
         "index": index,
         "groups": [[index[name] for name in group] for group in groups],
         "ungrouped": [index[name] for name in ungrouped],
-        "no_replica": all(references[name]["distance"] is None for name in ungrouped),
-        "compatible": [index[name] for name in compatible],
-        "strip": [index[name] for name in by_distance(list(references))],
-        "criterion": metric.criterion if "metric" in record else f"distance at most {_value(threshold)}",
-        "mean_iou": _mean([references[name]["iou"] for name in compatible]),
-        "highest": max([min(1.5, far) * threshold, *(pair["distance"] or 0.0 for pair in pairs)]),
+        "no_replica": all(scale.value(references[name]) is None for name in ungrouped),
+        "replicated": [index[name] for name in replicated],
+        "counts": {grade: sum(of == grade for of in grades.values()) for grade in GRADES},
+        "compatible": sum(reference["compatible"] for reference in references.values()),
+        "strip": [index[name] for name in ordered(references)],
+        "scale": scale,
+        "papers": criterion,
+        "criterion": criterion if scale.judge == "paper" else f"fidelity at least {_value(scale.cuts['replicated'])}",
+        "measures": _measures(pairs),
         "frame": _frame([picture for pair in pairs for picture in pair["pictures"]]),
-        "far": far,
-        "tints": [colour(far * threshold * i / (TINTS - 1), threshold, far) for i in range(TINTS)],
         "at_limit": {
             parameter["name"]: sum(parameter["name"] in reference["at_limit"] for reference in references.values())
             for parameter in parameters
@@ -122,26 +112,42 @@ def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] 
 def _pair(
     reference: dict[str, Any],
     folder: Path,
-    threshold: float,
-    far: float,
+    scale: Scale,
     parameters: list[dict[str, Any]],
     told: dict[str, Any] | None,
 ) -> dict[str, Any]:
-    distance = reference["distance"]
     files = [folder / "thumbnails" / f"{reference['slug']}.{kind}.png" for kind in ("reference", "replica")]
     pictures = [file.read_bytes() if file.is_file() else None for file in files]
-    causes = told["causes"] if told else []
+    causes, grade = told["causes"] if told else [], grade_in(reference)
+    regions = outlines(told) if told else boxes(reference)
     return {
         **reference,
+        "grade": grade,
+        "value": scale.value(reference),
+        "title": scale.title(reference),
+        "regions": [
+            {"kind": kind, "sizes": [f"{region['size']:.0%}".replace("%", " %") for region in reference.get(kind, ())]}
+            for kind in ("missing", "surplus")
+        ],
         "causes": [{"kind": cause["kind"], "text": cause["text"]} for cause in causes],
-        "outlines": outlines(told) if told and not reference["compatible"] else ([], []),
-        "colour": colour(distance, threshold, far),
-        "tint": None if distance is None else round(min(distance / (far * threshold), 1.0) * (TINTS - 1)),
+        "outlines": regions if grade != "replicated" else ([], []),
+        "colour": scale.colour(reference),
+        "tint": scale.tint(reference),
         "pictures": pictures,
         "sources": [picture and embedded(picture) for picture in pictures],
         "link": reference["replica"] and quote(reference["replica"]),
         "values": [_shown(p, reference) for p in parameters],
     }
+
+
+def _measures(pairs: list[dict[str, Any]]) -> list[tuple[str, float, float | None]]:
+    """What each measure is, its mean over all references with a replica and over the replicated; not unknown ones."""
+    rows = []
+    for name, words in Measures.words().items():
+        every = _mean([pair.get(name) for pair in pairs])
+        if every is not None:
+            rows.append((words, every, _mean([pair.get(name) for pair in pairs if pair["grade"] == "replicated"])))
+    return rows
 
 
 def _shown(parameter: dict[str, Any], reference: dict[str, Any]) -> list[Any] | None:
@@ -155,10 +161,17 @@ def _shown(parameter: dict[str, Any], reference: dict[str, Any]) -> list[Any] | 
 
 def _details(pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """What the page's script shows of each pair when it is opened."""
-    kept = ("name", "causes", "colour", "tint", "compatible", "error", "path", "link", "triangles", "values")
+    kept = ("name", "causes", "colour", "tint", "title", "regions", "error", "path", "link", "triangles", "values")
     return [
         {key: pair[key] for key in kept}
-        | {"distance": _number(pair["distance"]), "iou": _number(pair["iou"]), "chamfer": _number(pair["chamfer"], 4)}
+        | {"value": _number(pair["value"])}
+        | {
+            "measures": [
+                [words, _number(pair[name], 4)]
+                for name, words in Measures.words().items()
+                if pair.get(name) is not None
+            ]
+        }
         for pair in pairs
     ]
 

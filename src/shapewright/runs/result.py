@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.judging.target import Measures
-from shapewright.judging.verdict import Grade
+from shapewright.judging.verdict import Grade, Region
 from shapewright.parameters import Parameters
 from shapewright.references.readers.svg import read_svg
 from shapewright.settings import JudgeName
@@ -34,6 +34,8 @@ class Result:
         group: index of the iteration's group, None for a replicated reference.
         reference: the normalised shape, None in an iteration that was loaded.
         error: why there is no replica.
+        missing: regions of the reference without a counterpart, the largest first.
+        surplus: regions of the replica without a counterpart, the largest first.
     """
 
     name: str
@@ -48,6 +50,8 @@ class Result:
     group: int | None
     reference: Shape | None
     error: str | None = None
+    missing: tuple[Region, ...] = ()
+    surplus: tuple[Region, ...] = ()
 
     @property
     def fidelity(self) -> float:
@@ -82,6 +86,7 @@ class Result:
 
 MEASURES = tuple(field.name for field in fields(Measures))
 """The names of all measures."""
+_KEPT = 8  # regions in a record, of either kind: the largest
 
 
 def to_record(result: Result, slug: str) -> dict[str, Any]:
@@ -95,6 +100,8 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
         "at_limit": list(result.at_limit),
         **{name: _finite(value) for name, value in result.measures.items()},
         "grade": result.grade,
+        "missing": [_region(region) for region in result.missing[:_KEPT]],
+        "surplus": [_region(region) for region in result.surplus[:_KEPT]],
         "compatible": result.compatible,
         "group": result.group,
         "error": result.error,
@@ -113,6 +120,8 @@ def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
         reference=None,
         measured=Measures(**{name: math.nan if entry.get(name) is None else entry[name] for name in MEASURES}),
         grade=grade_in(entry),
+        missing=tuple(_read_region(region) for region in entry.get("missing", ())),
+        surplus=tuple(_read_region(region) for region in entry.get("surplus", ())),
         **{name: entry[name] for name in ("name", "parameters", "compatible", "group", "error")},
     )
 
@@ -140,6 +149,15 @@ def read_replica(run: Path, entry: Mapping[str, Any]) -> Shape | None:
         return None
     data = (run / entry["replica"]).read_bytes()
     return read_svg(data)[0] if entry["replica"].endswith(".svg") else read_glb(data)
+
+
+def _region(region: Region) -> dict[str, Any]:
+    low, high = ([round(x, 4) for x in corner] for corner in (region.low, region.high))
+    return {"size": round(region.size, 4), "low": low, "high": high, "share": round(region.share, 5)}
+
+
+def _read_region(record: Mapping[str, Any]) -> Region:
+    return Region(record["size"], tuple(record["low"]), tuple(record["high"]), record["share"])
 
 
 def _finite(value: float) -> float | None:

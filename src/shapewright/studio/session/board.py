@@ -12,7 +12,7 @@ from msgspec import structs
 from shapewright.building.outcomes import Failure
 from shapewright.judging.paper import Metric, light_field_metric
 from shapewright.parameters import Parameters
-from shapewright.report.page import colour
+from shapewright.report.scale import colour
 from shapewright.runs.folder import read_record
 from shapewright.settings import Settings
 from shapewright.studio.project.listing import Listing
