@@ -13,7 +13,14 @@ from shapewright.parameters import Parameters
 from shapewright.shapes import Drawing, Mesh, Shape
 
 CauseKind = Literal[
-    "out of range", "badly predicted", "wrong choice", "missing part", "surplus part", "wrong form", "not such a shape"
+    "out of range",
+    "badly predicted",
+    "wrong choice",
+    "another pose",
+    "missing part",
+    "surplus part",
+    "wrong form",
+    "not such a shape",
 ]
 
 
@@ -43,6 +50,7 @@ class Cause:
     evidence: Mapping[str, Any] = field(default_factory=dict)  # what shows it, as plain values for JSON
     label: str | None = None  # of the part that it is about, None where it is about none
     weight: float = 0.0  # of a part: share of the surface times distance from the other surface
+    picture: bytes | None = None  # PNG that shows it, where words are not enough
 
 
 @dataclass(frozen=True, eq=False)

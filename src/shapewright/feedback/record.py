@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from shapewright.feedback.case import Case, DrawnCase
+from shapewright.feedback.case import Case, Cause, DrawnCase
 from shapewright.feedback.causes.shared import SharedCause
 from shapewright.feedback.explanation import Explanation
 from shapewright.feedback.suggestions import Suggestion
@@ -82,11 +82,17 @@ def _case(case: Case | DrawnCase) -> dict[str, Any]:
         placement = {"centre": _rounded(centre), "scale": round(placed.scale / own.scale, 5)}
     regions = [*case.covering_residuals.of("unexplained"), *case.residuals.of("surplus")]
     return {
-        "causes": [{"kind": c.kind, "text": c.text, "evidence": dict(c.evidence)} for c in case.causes],
+        "causes": [_cause(cause) for cause in case.causes],
         "regions": [_region(region) for region in sorted(regions, key=lambda region: -region.weight)],
         "placement": placement,
         "dimensions": case.residuals.dimensions,
     }
+
+
+def _cause(cause: Cause) -> dict[str, Any]:
+    """Its picture in base64, where it has one."""
+    picture = {"picture": base64.b64encode(cause.picture).decode("ascii")} if cause.picture else {}
+    return {"kind": cause.kind, "text": cause.text, "evidence": dict(cause.evidence), **picture}
 
 
 def _region(region: Region) -> dict[str, Any]:

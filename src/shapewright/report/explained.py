@@ -39,6 +39,12 @@ def embedded(picture: bytes) -> str:
     return "data:image/png;base64," + base64.b64encode(picture).decode()
 
 
+def told_cause(cause: Mapping[str, Any]) -> dict[str, Any]:
+    """Its kind, its text and the address of its picture, None where it has none."""
+    picture = f"data:image/png;base64,{cause['picture']}" if cause.get("picture") else None
+    return {"kind": cause["kind"], "text": cause["text"], "picture": picture}
+
+
 def outlines(reference: Mapping[str, Any]) -> tuple[list[str], list[str]]:
     """Paths, in a picture of 100 x 100, of the regions on the reference's thumbnail and on the replica's."""
     placement = reference.get("placement") or {"centre": [0.0, 0.0, 0.0], "scale": 1.0}

@@ -15,7 +15,7 @@ from PIL import Image
 
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import Measures
-from shapewright.report.explained import boxes, embedded, outlines, read_explanation
+from shapewright.report.explained import boxes, embedded, outlines, read_explanation, told_cause
 from shapewright.report.scale import GRADES, Scale
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import read_record
@@ -129,7 +129,7 @@ def _pair(
             {"kind": kind, "sizes": [f"{region['size']:.0%}".replace("%", " %") for region in reference.get(kind, ())]}
             for kind in ("missing", "surplus")
         ],
-        "causes": [{"kind": cause["kind"], "text": cause["text"]} for cause in causes],
+        "causes": [told_cause(cause) for cause in causes],
         "outlines": regions if grade != "replicated" else ([], []),
         "colour": scale.colour(reference),
         "tint": scale.tint(reference),

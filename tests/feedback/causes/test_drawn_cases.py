@@ -11,7 +11,7 @@ from shapewright.feedback.record import record_of
 from shapewright.modelling.drawing import box
 from shapewright.report.explained import outlines
 
-SETTINGS = sw.Settings(seed=0, samples=300, epochs=3, image_size=32, refine="off", workers=1, fidelity=0.9)
+SETTINGS = sw.Settings(seed=0, samples=300, epochs=3, image_size=32, refine="off", workers=1, judge="paper", vif=0.9)
 
 
 @sw.procedure

@@ -140,10 +140,15 @@ def prediction_of(
     space: ParameterSpace, predictor: Predictor | None, known: Sequence[Replica], shapes: Sequence[Shape]
 ) -> Prediction:
     """What the predictor says of references, or what is known of them, not quite sure of its choices, without one."""
-    if predictor and [(p.name, p.classes) for p in predictor.space] == [(p.name, p.classes) for p in space]:
+    if predictor and knows(predictor, space):
         # A predictor that was saved has lost each ``when`` of its space.
         return replace(predictor.infer(shapes), space=space)
     return Prediction.of(space, [replica.parameters for replica in known], doubt=_UNSURE)
+
+
+def knows(predictor: Predictor, space: ParameterSpace) -> bool:
+    """Whether a predictor was trained for parameters of these names and classes."""
+    return [(p.name, p.classes) for p in predictor.space] == [(p.name, p.classes) for p in space]
 
 
 def _starts(known: Sequence[Replica], overlays: Sequence[Overlay], crew: Workers, judge: Judge) -> list[Parameters]:

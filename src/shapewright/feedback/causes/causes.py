@@ -10,6 +10,7 @@ from shapewright.building import Workers
 from shapewright.feedback.case import Case, updated
 from shapewright.feedback.causes.better_replicas import (
     covering_replicas,
+    knows,
     nearest_replicas,
     prediction_of,
     with_choices_kept,
@@ -19,6 +20,7 @@ from shapewright.feedback.causes.diagnosis import diagnosed, or_leaning
 from shapewright.feedback.causes.leaning import leaning
 from shapewright.feedback.causes.longer_ranges import replicas_outside
 from shapewright.feedback.causes.outliers import isolation, outliers
+from shapewright.feedback.causes.poses import standings
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.judging.judge import Judge
@@ -42,7 +44,11 @@ def causes(
     lacking = [case for case in misfits if case.causes[0].kind == "missing part"]
     leans = leaning(crew, [(case.covering.parameters, case.overlay) for case in lacking], settings.workers)
     leaning_ones = [or_leaning(case, lean) for case, lean in zip(lacking, leans, strict=True)]
-    return updated(cases, updated(misfits, leaning_ones))
+    misfits = updated(misfits, leaning_ones)
+    stood = standings(misfits, predictor if predictor and knows(predictor, space) else None, crew, settings.workers)
+    pairs = zip(misfits, stood, strict=True)
+    posed = [replace(case, causes=(its.cause(case.reference), *case.causes)) for case, its in pairs if its.told]
+    return updated(cases, updated(misfits, posed))
 
 
 def _searched(

@@ -65,6 +65,13 @@ def _filled(residuals: Residuals | Areas, side: RegionSide) -> Floats:
 
 def _of_kind(kind: CauseKind, cases: Sequence[Case | DrawnCase]) -> list[SharedCause]:
     names = [case.name for case in cases]
+    if kind == "another pose":
+        by_pose: dict[str, list[str]] = {}
+        for case in cases:
+            by_pose.setdefault(case.causes[0].evidence["words"], []).append(case.name)
+        return [
+            SharedCause(kind, f"{words}: {_count(len(some))}", tuple(some), some[0]) for words, some in by_pose.items()
+        ]
     if kind not in _STRUCTURE:
         return [_shared(kind, None, names, names[0])]
     signatures = np.array([signature(case.covering_residuals) for case in cases])
