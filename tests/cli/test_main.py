@@ -9,6 +9,7 @@ from functools import partial
 import pytest
 
 from shapewright.modelling.solids import box
+from shapewright.runs.result import MEASURES
 
 SOURCE = """
 from typing import Annotated
@@ -53,20 +54,28 @@ def test_fit_compare_and_report(project):
     record = last_json(first)
     assert first.stdout.count("\n") == 1 and "training" in first.stderr
     assert record["run"] == str(project / "runs" / "001") and record["references"] == 3
-    assert record["compatible"] + record["incompatible"] == 3 and set(record["seconds"]) >= {"train", "compare"}
+    assert record["replicated"] + record["close"] + record["different"] == 3 and record["judge"] == "fidelity"
+    assert record["compatible"] + record["incompatible"] == 3 and set(record["means"]) == set(MEASURES)
+    assert all({"grade", "fidelity", "distance"} <= set(result) for result in record["results"].values())
+    assert set(record["seconds"]) >= {"train", "compare"}
     assert set(record["results"]) == {"block 0", "block 1", "block 2"}
 
     second = shapewright("fit", "stool.py", "references", *QUICK, "--seed", "1", cwd=project)
     assert second.returncode == 0, second.stderr
-    assert "of 3 references are compatible" in second.stdout and "runs/002/report.html" in second.stdout
+    for words in ("of 3 references are replicated", "paper's measure: ", "runs/002/report.html"):
+        assert words in second.stdout
 
-    third = shapewright("fit", "stool.py", "references", "--samples", "60", "--from", "runs/001", "--json", cwd=project)
+    again = ("fit", "stool.py", "references", "--samples", "60", "--from", "runs/001")
+    third = shapewright(*again, "--judge", "paper", "--json", cwd=project)
     assert third.returncode == 0, third.stderr
-    assert last_json(third)["run"] == str(project / "runs" / "003")
+    record = last_json(third)
+    assert record["run"] == str(project / "runs" / "003")
+    assert (record["judge"], record["replicated"], record["close"]) == ("paper", record["compatible"], 0)
+    assert "newly compatible" in shapewright("compare", "runs/002", "runs/003", cwd=project).stdout
 
     compared = shapewright("compare", "runs/001", "runs/002", "--json", cwd=project)
-    assert set(last_json(compared)) == {"gained", "lost", "closer", "further", "added", "removed"}
-    assert "newly compatible" in shapewright("compare", "runs/001", "runs/002", cwd=project).stdout
+    assert set(last_json(compared)) == {"judge", "gained", "lost", "closer", "further", "added", "removed"}
+    assert "newly replicated" in shapewright("compare", "runs/001", "runs/002", cwd=project).stdout
 
     page = project / "runs" / "002" / "report.html"
     before = page.read_text()

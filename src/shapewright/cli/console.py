@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -93,13 +94,7 @@ def print_json(value: Any) -> None:
 
 def print_iteration(iteration: Iteration, folder: Path) -> None:
     """Counts, groups, held-out metrics, and where the report is."""
-    total = len(iteration)
-    out.print(
-        f"\n[bold]{len(iteration.replicated)} of {total}[/] references are replicated, {len(iteration.close)} close, "
-        f"{len(iteration.different)} different (paper's measure: {len(iteration.compatible)} of {total}, "
-        f"{iteration.metric.criterion})",
-        highlight=False,
-    )
+    out.print(f"\n{_counts(iteration)}", highlight=False)
     skipped = iteration.collection["skipped"]
     if skipped:
         out.print(f"[yellow]{len(skipped)} {'file' if len(skipped) == 1 else 'files'} could not be read:[/]")
@@ -108,10 +103,11 @@ def print_iteration(iteration: Iteration, folder: Path) -> None:
     if iteration.metrics["failed"]:
         out.print(f"[yellow]{iteration.metrics['failed']} samples failed:[/] {escape(iteration.metrics['failures'])}")
     if iteration.groups:
-        table = Table("group", "references", "distance", box=None, header_style="dim", title_justify="left")
+        value = "fidelity" if iteration.settings.judge == "fidelity" else "distance"
+        table = Table("group", "references", value, box=None, header_style="dim", title_justify="left")
         for group in iteration.groups[:10]:
-            distance = iteration[group.representative].distance
-            table.add_row(escape(group.representative), str(len(group)), f"{distance:.2f}")
+            measured = iteration[group.representative].measures[value]
+            table.add_row(escape(group.representative), str(len(group)), f"{measured:.2f}")
         out.print("\nmisfits that look alike, by the one in their middle:")
         out.print(table)
         if len(iteration.groups) > 10:
@@ -119,6 +115,22 @@ def print_iteration(iteration: Iteration, folder: Path) -> None:
     out.print(
         f"\n[dim]{sum(iteration.seconds.values()):.0f} s[/]   report: {escape(str(folder / 'report.html'))}",
         soft_wrap=True,
+    )
+
+
+def _counts(iteration: Iteration) -> str:
+    """How many references are replicated, close, different; and how many by the paper's measure."""
+    total, criterion = len(iteration), iteration.metric.criterion
+    if iteration.settings.judge == "paper":
+        iou = f"{iteration.means['iou']:.3f}"
+        return (
+            f"[bold]{len(iteration.compatible)} of {total}[/] references are compatible ({criterion}); mean IoU {iou}"
+        )
+    close, different = len(iteration.close), len(iteration.different)
+    return (
+        f"[bold]{len(iteration.replicated)} of {total}[/] references are replicated, "
+        f"{close} close, {different} different\n"
+        f"[dim]paper's measure: {len(iteration.compatible)} of {total} ({criterion})[/]"
     )
 
 
@@ -138,6 +150,7 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
         "different": len(iteration.different),
         "compatible": len(iteration.compatible),
         "incompatible": len(iteration) - len(iteration.compatible),
+        "means": {name: None if math.isnan(mean) else mean for name, mean in iteration.means.items()},
         "skipped": record["collection"]["skipped"],
         "groups": record["groups"],
         "metrics": record["metrics"]["validation"],
@@ -151,9 +164,9 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
 
 
 def print_explanation(record: Mapping[str, Any], folder: Path) -> None:
-    """What the incompatible references have in common, and what to write next."""
+    """What the misfits have in common, and what to write next."""
     if not record["summary"]:
-        out.print("every reference that has a replica is compatible")
+        out.print("every reference that has a replica is replicated")
     for shared in record["summary"]:
         like = f"  [dim]like {escape(shared['representative'])}[/]"
         out.print(f"{escape(shared['text'])}{like}", highlight=False, soft_wrap=True)
@@ -200,7 +213,8 @@ def _range(mean: float, low: float, high: float) -> str:
 
 def print_comparison(before: Path, after: Path, comparison: Comparison) -> None:
     """What changed between two runs, and how far each reference moved."""
-    out.print(f"from {escape(str(before))} to {escape(str(after))}", highlight=False)
+    by = "fidelity" if comparison.judge == "fidelity" else "the paper's distance"
+    out.print(f"from {escape(str(before))} to {escape(str(after))}, by {by}", highlight=False)
     word = "replicated" if comparison.judge == "fidelity" else "compatible"
     for title, moves in (
         (f"newly {word}", comparison.gained),

@@ -97,7 +97,7 @@ def compare(
     after: Annotated[Path, typer.Argument(help="Folder of the later run.")],
     json: Json = False,
 ) -> None:
-    """Show what changed between two runs: newly compatible, lost, closer, further."""
+    """Show what changed between two runs: newly replicated, lost, closer, further."""
     from shapewright.runs.changes import compare as compare_runs
 
     comparison = compare_runs(before, after)
