@@ -107,18 +107,20 @@ def test_a_fit_keeps_its_run_when_the_explanation_fails(project, monkeypatch):
     assert (run / "iteration.json").is_file() and (run / "report.html").is_file()
 
 
-def test_marks_move_the_threshold(project):
+def test_marks_move_the_cut_of_the_judge(project):
     run = project / "runs" / "001"
     entries = json.loads((run / "iteration.json").read_text())["references"]
-    distance = {entry["name"]: entry["distance"] for entry in entries}
-    far = max(distance, key=distance.get)
-    found = call("mark", run, far, "same")
-    assert found["marks"] == 1 and found["threshold"] >= min(distance[far], 0.18)
-    assert json.loads((project / "marks.json").read_text())[0]["measures"]["distance"] == distance[far]
-    arguments = (project / "stool.py", project / "references", *QUICK, "--workers", 1)
-    call("fit", *arguments, "--marks", "--out", project / "runs" / "002")
-    record = json.loads((project / "runs" / "002" / "iteration.json").read_text())
-    assert record["threshold"] == pytest.approx(found["threshold"]) and record["references"][0]["depth"] is not None
+    best = max(entries, key=lambda entry: entry["fidelity"])
+    found = call("mark", run, best["name"], "different")
+    assert found["marks"] == 1 and found["replicated"] >= max(min(best["fidelity"], 0.99), 0.5)
+    assert json.loads((project / "marks.json").read_text())[0]["measures"]["fidelity"] == best["fidelity"]
+    arguments = (project / "stool.py", project / "references", *QUICK, "--workers", 1, "--marks", "--out")
+    call("fit", *arguments, project / "runs" / "002")
+    settings = json.loads((project / "runs" / "002" / "iteration.json").read_text())["settings"]
+    assert settings["replicated"] == pytest.approx(found["replicated"]) and settings["threshold"] == 0.18
+    call("fit", *arguments, project / "runs" / "003", "--judge", "paper")
+    settings = json.loads((project / "runs" / "003" / "iteration.json").read_text())["settings"]
+    assert settings["threshold"] == pytest.approx(found["threshold"]) and settings["replicated"] == 0.5
 
 
 def test_fit_with_marks_needs_marks(project):

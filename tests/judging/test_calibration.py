@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from shapewright.judging.calibration import calibrate, fit_threshold, is_same
+from shapewright.judging.calibration import calibrate, fit_cut, fit_threshold, is_same
+from shapewright.settings import Settings
 
 
 def pairs(rng, count, noise):
@@ -30,6 +31,20 @@ def test_without_marks_the_threshold_is_the_default():
 )
 def test_threshold_lies_between_the_two_kinds_and_nearest_to_the_default(distances, same, expected):
     assert fit_threshold(np.array(distances), np.array(same)) == pytest.approx(expected)
+
+
+def test_the_cut_of_the_fidelity_goes_by_the_same_rule():
+    assert fit_cut(np.array([]), np.array([], dtype=bool)) == Settings.replicated
+    assert fit_cut(np.array([0.2, 0.6, 0.7, 0.9]), np.array([False, False, True, True])) == pytest.approx(0.65)
+    assert fit_cut(np.array([0.2, 0.9]), np.array([False, True])) == Settings.replicated
+    assert 0.0 < fit_cut(np.array([0.001]), np.array([True])) < fit_cut(np.array([0.999]), np.array([False])) < 1.0
+
+
+def test_marks_move_the_cut_of_the_fidelity_and_the_threshold_apart():
+    pairs = [{"distance": 0.1, "fidelity": f} for f in (0.4, 0.6, 0.7, 0.8)]
+    found = calibrate([*pairs, {"distance": 0.12}], [False, False, True, True, True])
+    assert found.replicated == pytest.approx(0.65) and found.marks == 5
+    assert found.default_fidelity_accuracy == 0.75 and found.default_accuracy == 0.6
 
 
 def test_one_stray_mark_does_not_move_the_threshold():

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -112,6 +114,12 @@ def print_iteration(iteration: Iteration, folder: Path) -> None:
         out.print(table)
         if len(iteration.groups) > 10:
             out.print(f"  and {len(iteration.groups) - 10} more groups")
+    asked = iteration.record["worth_marking"]
+    if asked:
+        out.print("\nthe judge is least sure of these; mark what you see, and it learns your eye:")
+        for name in asked:
+            command = f"shapewright mark {quote(os.path.relpath(folder))} {quote(name)} same|different"
+            out.print(f"  {escape(command)}", highlight=False, soft_wrap=True)
     out.print(
         f"\n[dim]{sum(iteration.seconds.values()):.0f} s[/]   report: {escape(str(folder / 'report.html'))}",
         soft_wrap=True,
@@ -153,6 +161,7 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
         "means": {name: None if math.isnan(mean) else mean for name, mean in iteration.means.items()},
         "skipped": record["collection"]["skipped"],
         "groups": record["groups"],
+        "worth_marking": record["worth_marking"],
         "metrics": record["metrics"]["validation"],
         "failed_samples": record["metrics"]["failed"],
         "seconds": record["seconds"],
@@ -181,10 +190,14 @@ def print_explanation(record: Mapping[str, Any], folder: Path) -> None:
 def print_calibration(path: Path, found: Calibration) -> None:
     """What the marks say so far."""
     out.print(f"{found.marks} marks in {escape(str(path))}", highlight=False, soft_wrap=True)
-    sure = "" if found.accuracy is None else f", right for {found.accuracy:.0%} of marks that it has not seen"
-    default = found.default_accuracy
-    was = "" if default is None else f" ({Settings.threshold} is right for {default:.0%})"
-    out.print(f"threshold {found.threshold:.3f}{sure}{was}", highlight=False)
+    learned = (
+        ("fidelity", found.replicated, found.fidelity_accuracy, Settings.replicated, found.default_fidelity_accuracy),
+        ("paper's threshold", found.threshold, found.accuracy, Settings.threshold, found.default_accuracy),
+    )
+    for what, cut, accuracy, usual, default in learned:
+        sure = "" if accuracy is None else f", right for {accuracy:.0%} of marks that it has not seen"
+        was = "" if default is None else f" ({usual:g} is right for {default:.0%})"
+        out.print(f"{what} {cut:.3f}{sure}{was}", highlight=False)
     if found.metric and found.metric_accuracy is not None:
         out.print(f"distance, IoU and depth together: right for {found.metric_accuracy:.0%}", highlight=False)
     out.print("[dim]use it with: shapewright fit PROCEDURE REFERENCES --marks[/]")

@@ -54,7 +54,9 @@ def fit(
 
     folder = (out_dir or next_run(Path("runs"))).absolute()
     check_free(folder)
-    settings = Settings.preset(preset, **{**(judged_by_marks(folder) if marks else {}), **chosen})
+    settings = Settings.preset(preset, **chosen)
+    if marks:
+        settings = Settings.preset(preset, **{**judged_by_marks(folder, settings.judge), **chosen})
     earlier = Iteration.load(previous) if previous else None
     author, loaded = load_procedure(procedure), Collection.load(references, up=up, front=front)
     check_writable(folder)

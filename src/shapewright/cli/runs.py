@@ -20,6 +20,7 @@ from shapewright.cli.console import (
 from shapewright.cli.options import Json, Workers
 from shapewright.runs.folder import RunError, previous_run
 from shapewright.runs.marks import marks_path
+from shapewright.settings import JudgeName, Settings
 from shapewright.storage import cache_folder
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def mark(
     ],
     json: Json = False,
 ) -> None:
-    """Mark a reference and its replica as the same or as different; the marks say what the threshold should be."""
+    """Mark a reference and its replica as the same or as different; the marks say what the cut should be."""
     from shapewright.runs.marks import mark as write_mark
 
     path = write_mark(run, name, judgement == "same")
@@ -107,12 +108,17 @@ def compare(
         print_comparison(before, after, comparison)
 
 
-def judged_by_marks(folder: Path) -> dict[str, Any]:
-    """The settings that a project's marks ask for. folder: of the run to be made. Raises RunError without marks."""
+def judged_by_marks(folder: Path, judge: JudgeName) -> dict[str, Any]:
+    """The settings of a judge that a project's marks ask for.
+
+    The other judge's stay. folder: of the run to be made. Raises RunError without marks.
+    """
     found = _calibration(folder)
     if not found.marks:
         raise RunError(f"{marks_path(folder)}: no marks yet; make some with: shapewright mark RUN NAME same|different")
-    return {"threshold": found.threshold, "metric": found.metric}
+    if judge == "paper":
+        return {"threshold": found.threshold, "metric": found.metric}
+    return {"replicated": found.replicated, "close": min(Settings.close, found.replicated)}
 
 
 def _calibration(run: Path) -> Calibration:

@@ -1,4 +1,7 @@
-"""What an author's marks say: a threshold of the distance, and with enough marks a metric of several measures."""
+"""What an author's marks say: the least fidelity that is the same to the author, and as much of the paper's measure.
+
+Of that a threshold, and with enough marks a metric of several measures.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +15,10 @@ from shapewright.settings import Settings, Weights
 from shapewright.shapes import Floats
 
 MEASURES = ("distance", "iou", "depth")  # what a metric is learned from, in the order of its weights
+NOTED = (*MEASURES, "fidelity")  # what is kept of a marked pair
 ENOUGH, OF_EACH = 20, 6
 """Marks that a metric is learned from at least, in all and of either kind: five for each of its four numbers."""
+_LEAST = 0.01  # distance of the cut of the fidelity to 0 and to 1: either end would judge all pairs alike
 _FOLDS = 5  # of a cross-validation, the usual number
 Classifier = Callable[[Floats, NDArray[np.bool_], Floats], NDArray[np.bool_]]
 """Learns from measures (N, K) and what is the same (N,) which of other measures (M, K) are the same (M,)."""
@@ -23,25 +28,31 @@ Classifier = Callable[[Floats, NDArray[np.bool_], Floats], NDArray[np.bool_]]
 class Calibration:
     """What marks say; accuracies are shares of marks judged right, None where there are too few to measure them."""
 
+    replicated: float  # the least fidelity of a replicated reference
+    fidelity_accuracy: float | None  # of such cuts fitted to other marks (cross-validation)
     threshold: float  # of the light-field distance
     accuracy: float | None  # of thresholds fitted to other marks (cross-validation); it takes 2 marks of either kind
     metric: Weights | None  # of all measures; None for too few marks, or where it is no better than the threshold
     metric_accuracy: float | None  # of such metrics, cross-validated as well
     marks: int  # how many there are
     default_accuracy: float | None  # of the default threshold
+    default_fidelity_accuracy: float | None  # of the default cut of the fidelity
 
 
 def calibrate(measures: Sequence[Mapping[str, float]], same: Sequence[bool], seed: int = 0) -> Calibration:
-    """Fit a threshold, and a metric where there is enough to learn from.
+    """Fit a cut of the fidelity, a threshold, and a metric where there is enough to learn from.
 
-    measures: of each pair, "distance" and perhaps "iou" and "depth". Of the thresholds that get most marks right, the
-    one nearest to the default is taken: without marks, the default itself. The metric is a logistic regression. It
-    needs 20 marks with all measures, 6 of either kind, and a better cross-validated accuracy than the threshold.
+    measures: of each pair, "distance" and perhaps "fidelity", "iou" and "depth". A pair without a fidelity does not
+    count for the cut. Of the thresholds that get most marks right, the one nearest to the default is taken: without
+    marks, the default itself. The cut is found in the same way. The metric is a logistic regression. It needs 20 marks
+    with all measures, 6 of either kind, and a better cross-validated accuracy than the threshold.
     """
     distances, truth = np.array([pair["distance"] for pair in measures], dtype=float), np.array(same, dtype=bool)
     threshold = fit_threshold(distances, truth)
     default = float(((distances <= Settings.threshold) == truth).mean()) if len(truth) else None
     accuracy = _cross_validated(distances[:, None], truth, _by_threshold, seed)
+    judged = [i for i, pair in enumerate(measures) if "fidelity" in pair]
+    fidelity, alike = np.array([measures[i]["fidelity"] for i in judged], dtype=float), truth[judged]
     whole = [i for i, pair in enumerate(measures) if all(name in pair for name in MEASURES)]
     table = np.array([[measures[i][name] for name in MEASURES] for i in whole]).reshape(-1, len(MEASURES))
     known = truth[whole]
@@ -51,7 +62,17 @@ def calibrate(measures: Sequence[Mapping[str, float]], same: Sequence[bool], see
         by_threshold = _cross_validated(table[:, :1], known, _by_threshold, seed)
         if metric_accuracy is not None and by_threshold is not None and metric_accuracy > by_threshold:
             metric = fit_metric(table, known)
-    return Calibration(threshold, accuracy, metric, metric_accuracy, len(truth), default)
+    return Calibration(
+        replicated=fit_cut(fidelity, alike),
+        fidelity_accuracy=_cross_validated(fidelity[:, None], alike, _by_cut, seed),
+        threshold=threshold,
+        accuracy=accuracy,
+        metric=metric,
+        metric_accuracy=metric_accuracy,
+        marks=len(truth),
+        default_accuracy=default,
+        default_fidelity_accuracy=float(((fidelity >= Settings.replicated) == alike).mean()) if len(alike) else None,
+    )
 
 
 def fit_threshold(distances: Floats, same: NDArray[np.bool_], default: float = Settings.threshold) -> float:
@@ -66,6 +87,11 @@ def fit_threshold(distances: Floats, same: NDArray[np.bool_], default: float = S
     right = ((distances[:, None] <= cuts) == same[:, None]).sum(axis=0)
     best = cuts[right == right.max()]
     return float(best[np.abs(best - default).argmin()])
+
+
+def fit_cut(fidelities: Floats, same: NDArray[np.bool_], default: float = Settings.replicated) -> float:
+    """The least fidelity of what is the same, by the rule of ``fit_threshold``; inside (0, 1)."""
+    return min(max(1.0 - fit_threshold(1.0 - fidelities, same, 1.0 - default), _LEAST), 1.0 - _LEAST)
 
 
 def fit_metric(table: Floats, same: NDArray[np.bool_]) -> Weights:
@@ -87,6 +113,10 @@ def is_same(metric: Weights, distance: float, iou: float, depth: float) -> bool:
 
 def _by_threshold(table: Floats, same: NDArray[np.bool_], others: Floats) -> NDArray[np.bool_]:
     return np.asarray(others[:, 0] <= fit_threshold(table[:, 0], same))
+
+
+def _by_cut(table: Floats, same: NDArray[np.bool_], others: Floats) -> NDArray[np.bool_]:
+    return np.asarray(others[:, 0] >= fit_cut(table[:, 0], same))
 
 
 def _by_metric(table: Floats, same: NDArray[np.bool_], others: Floats) -> NDArray[np.bool_]:

@@ -95,6 +95,7 @@ def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] 
         "compatible": sum(reference["compatible"] for reference in references.values()),
         "strip": [index[name] for name in ordered(references)],
         "scale": scale,
+        "asked": [index[name] for name in record.get("worth_marking", []) if name in index],
         "papers": criterion,
         "criterion": criterion if scale.judge == "paper" else f"fidelity at least {_value(scale.cuts['replicated'])}",
         "measures": _measures(pairs),

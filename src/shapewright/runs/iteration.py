@@ -19,6 +19,7 @@ from shapewright.judging.verdict import Grade
 from shapewright.prediction.predictor import Predictor
 from shapewright.rendering.thumbnails import thumbnails
 from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
+from shapewright.runs.marks import worth_marking
 from shapewright.runs.result import MEASURES, Result, from_record, read_replica, replica_path, to_record
 from shapewright.settings import Settings
 from shapewright.shapes.files import encode
@@ -135,6 +136,7 @@ class Iteration:
             "metric": asdict(self.metric),
             "references": [to_record(result, slugs[result.name]) for result in self.results],
             "groups": [{"representative": g.representative, "members": list(g.members)} for g in self.groups],
+            "worth_marking": list(worth_marking(self)),
             "metrics": dict(self.metrics),
             "seconds": dict(self.seconds),
         }

@@ -2,7 +2,8 @@
 
 The file is a JSON list, in the order of marking, of objects
 
-    {"a": name, "b": name, "same": true | false, "run": "003", "measures": {"distance": 0.21, "iou": 0.8, "depth": 0.1}}
+    {"a": name, "b": name, "same": true | false, "run": "003",
+     "measures": {"distance": 0.21, "iou": 0.8, "depth": 0.1, "fidelity": 0.4}}
 
 where ``a`` is a reference and ``b`` the reference whose replica it was compared with, which is ``a`` itself where an
 author judges a reference and its own replica. ``run`` is the folder's name of the run that made the replica, and
@@ -14,16 +15,23 @@ RunError.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
-from shapewright.judging.calibration import MEASURES
+from shapewright.judging.calibration import NOTED
+from shapewright.judging.paper import Metric
 from shapewright.runs.folder import RECORD, RunError, previous_run, read_record
+from shapewright.runs.result import Result
+from shapewright.settings import Settings
 from shapewright.storage import write_file
 
 MARKS = "marks.json"
+DOUBTFUL = 0.35
+"""Of a probability, from the cut: beyond, the judge is sure, and a mark seldom says anything new."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +40,23 @@ class Mark:
 
     name: str  # of the reference
     same: bool  # whether the author calls the two the same
-    measures: Mapping[str, float]  # those of MEASURES that are known
+    measures: Mapping[str, float]  # those of NOTED that are known
+
+
+class Judged(Protocol):
+    """Results and what judged them: an Iteration."""
+
+    @property
+    def results(self) -> Sequence[Result]:
+        """One of each reference."""
+
+    @property
+    def metric(self) -> Metric:
+        """The paper's measure."""
+
+    @property
+    def settings(self) -> Settings:
+        """With the cuts of the fidelity."""
 
 
 def marks_path(run: Path) -> Path:
@@ -105,8 +129,41 @@ def read_marks(run: Path, measured: bool = True) -> list[Mark]:
     return marks
 
 
+def worth_marking(iteration: Judged, count: int = 8, marked: AbstractSet[str] = frozenset()) -> tuple[str, ...]:
+    """Names of up to ``count`` references that it would say most of to mark them: the judge is least sure of them.
+
+    Their fidelity is nearest to the cut, or their distance to the threshold where the paper judges. They differ in
+    kind: of a group, or of replicas with the same choices, a second one is named only when every kind has one. What the
+    judge is sure of is left out, and so is what is ``marked`` already.
+    """
+    settings = iteration.settings
+
+    def doubt(result: Result) -> float:
+        if settings.judge == "paper":
+            return abs(result.distance / iteration.metric.threshold - 1.0) / 2.0
+        return abs(result.fidelity - settings.replicated)
+
+    open_ones = [result for result in iteration.results if result.name not in marked and doubt(result) <= DOUBTFUL]
+    open_ones.sort(key=doubt)
+    seen: Counter[Hashable] = Counter()
+    turns: list[tuple[int, int]] = []
+    for place, result in enumerate(open_ones):
+        kind = _kind(result)
+        turns.append((seen[kind], place))
+        seen[kind] += 1
+    return tuple(open_ones[place].name for _, place in sorted(turns)[:count])
+
+
+def _kind(result: Result) -> Hashable:
+    """What a misfit has in common with its group, and a replica with others that have its choices."""
+    if result.group is not None:
+        return result.group
+    values = result.parameters or {}
+    return tuple((name, values[name]) for name in result.active if not isinstance(values[name], float))
+
+
 def _measures(entry: Mapping[str, Any]) -> dict[str, float]:
-    return {name: entry[name] for name in MEASURES if entry.get(name) is not None}
+    return {name: entry[name] for name in NOTED if entry.get(name) is not None}
 
 
 def _replaces(new: Mapping[str, Any], old: Mapping[str, Any]) -> bool:
