@@ -1,10 +1,11 @@
 """Compatible references: network alone, with refinement, with adaptive rounds, and searches without a network.
 
-    python benchmarks/search.py examples/tables/v5.py FOLDER... [--rounds 1] [--seed 0]
+    python benchmarks/search.py examples/tables/v5.py FOLDER... [--rounds 1] [--seed 0] [--objectives]
 
 Searches without a network: scipy's differential evolution on the parameters of each reference, as long as the whole fit
 took (training included), by the same cost. Then, from the network's predictions, a search about thirty times as long as
-the quick one: what there is to find.
+the quick one: what there is to find. With --objectives only this: quick searches from the same predictions, by what
+each judge makes small, scored by measures that neither of them is made of.
 """
 
 import argparse
@@ -18,13 +19,18 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.building import Workers
+from shapewright.comparison.gaps import Surface
 from shapewright.comparison.light_field.aligned import AlignedCost
 from shapewright.judging.judge import Judge
+from shapewright.rendering.cameras import Camera
+from shapewright.rendering.raster import render
 from shapewright.search.budgets import QUICK, Budget
 from shapewright.search.moves import Probe, Scan, Step
 from shapewright.search.objective import Criterion
 from shapewright.search.search import SearchStart, refine
 
+PLACES = ((20, 10), (70, 40), (110, -30), (160, 20), (200, -10), (250, 35), (300, 5))
+UNSEEN = tuple(Camera(float(azimuth), float(elevation)) for azimuth, elevation in PLACES)  # by any search
 EXACT = (Probe(3, 0.05, both=True, again=True), Step(3, 3))
 LONG = Budget(
     (
@@ -73,12 +79,47 @@ def evolve(job: tuple[str, sw.Mesh, float, int]) -> dict:
     return best[1]
 
 
+def apart(reference: sw.Mesh, replica: sw.Mesh) -> tuple[float, float, float, float]:
+    """IoU of silhouettes, difference of depths, F-score at 2 % of the extent, light-field distance."""
+    meshes = [reference.normalised(), replica.normalised()]
+    a, b = render(meshes, UNSEEN, 128, supersample=1)[:, :, 1].astype(float)
+    both, either = (a > 0) & (b > 0), (a > 0) | (b > 0)
+    overlap = float((both.sum(axis=(1, 2)) / either.sum(axis=(1, 2))).mean())
+    depth = float(np.where(both, np.abs(a - b) / 255.0, either).sum() / either.sum())
+    f_score = Surface(reference).gaps(Surface(replica)).f_score(0.02)
+    return overlap, depth, f_score, sw.light_field.distance(reference, replica)
+
+
+def objectives(procedure: sw.Procedure, references: sw.Collection, seed: int) -> None:
+    """Quick searches from the same predictions, by what each judge makes small."""
+    shapes = [reference.shape for reference in references]
+    prediction = sw.train(procedure, sw.Settings(seed=seed)).infer(shapes)
+
+    def row(title: str, builds: list, seconds: float) -> None:
+        pairs = zip(shapes, builds, strict=True)
+        found = np.array([apart(shape, build.shape) for shape, build in pairs if build.shape is not None])
+        overlap, depth, f_score, distance = found.mean(axis=0)
+        values = f"IoU {overlap:.4f}   depth {depth:.4f}   F-score {f_score:.4f}   distance {distance:.4f}"
+        print(f"{title:26}{values}   {seconds:5.0f} s", flush=True)
+
+    with Workers(procedure) as crew:
+        predicted = crew.build(prediction.decode())
+        row("predicted", predicted, 0.0)
+        for name in ("paper", "fidelity"):
+            judge = Judge.of(references, sw.Settings(seed=seed, judge=name))
+            started = time.perf_counter()
+            criterion = judge.criterion(range(len(shapes)), judge.nearest(predicted)[1])
+            vectors = refine(SearchStart(prediction), criterion, crew, QUICK, seed)
+            row(f"searched, judge {name}", crew.build(vectors), time.perf_counter() - started)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("procedure", type=Path)
     parser.add_argument("folders", nargs="+")
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--objectives", action="store_true")
     arguments = parser.parse_args()
     procedure = sw.load_procedure(arguments.procedure)
     references = sw.Collection.of(
@@ -88,7 +129,10 @@ def main() -> None:
             for reference in sw.Collection.load(folder)
         }
     )
-    judge = Judge.of(references, sw.Settings())
+    if arguments.objectives:
+        objectives(procedure, references, arguments.seed)
+        return
+    judge = Judge.of(references, sw.Settings(judge="paper"))
 
     def row(title: str, distances: np.ndarray, seconds: float) -> None:
         near, mean = int((distances <= sw.light_field.THRESHOLD).sum()), float(np.nanmean(distances))
@@ -101,7 +145,7 @@ def main() -> None:
     )
     for title, refined, rounds in fits:
         started = time.perf_counter()
-        settings = sw.Settings(seed=arguments.seed, refine=refined, rounds=rounds)
+        settings = sw.Settings(seed=arguments.seed, refine=refined, rounds=rounds, judge="paper")
         iteration = sw.fit(procedure, references, settings)
         took = time.perf_counter() - started
         row(title, np.array([iteration[name].distance for name in references.names]), took)

@@ -193,7 +193,7 @@ def rules(arguments: argparse.Namespace) -> None:
 
 def rule(name: str, example: Path, edit: Edit, arguments: argparse.Namespace) -> dict[str, Any]:
     """One rule removed: references lost without it, and what each suggestion restores."""
-    settings = sw.Settings(seed=arguments.seed, workers=arguments.workers)
+    settings = sw.Settings(seed=arguments.seed, workers=arguments.workers, judge="paper")
     before = cpu_seconds()
     with tempfile.TemporaryDirectory() as folder:
         procedure = reduced(example, edit, Path(folder))

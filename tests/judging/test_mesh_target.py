@@ -8,6 +8,7 @@ from shapewright.building import Build
 from shapewright.comparison import light_field, volumes
 from shapewright.comparison.gaps import Surface
 from shapewright.comparison.light_field.aligned import AlignedCost
+from shapewright.comparison.posed import PosedDifference
 from shapewright.comparison.views import depth_difference, intersection_over_union
 from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.judge import Judge, target_of
@@ -63,13 +64,19 @@ def test_what_cannot_be_compared_has_no_measures():
     assert target.objective().residual(circle(1).drawing()) is None
 
 
-def test_a_search_goes_by_the_light_field_that_is_asked_for():
-    target, replica = MeshTarget(table(), SETTINGS), table(0.5)
+@pytest.mark.parametrize(("judge", "objective"), [("paper", AlignedCost), ("fidelity", PosedDifference)])
+def test_a_search_goes_by_what_its_judge_sees_and_by_the_light_field_that_is_asked_for(judge, objective):
+    target, replica = MeshTarget(table(), sw.Settings(workers=1, judge=judge)), table(0.5)
     for field in (0, 4):
-        assert np.array_equal(target.objective(field).residual(replica), AlignedCost(table(), field).residual(replica))
+        assert np.array_equal(target.objective(field).residual(replica), objective(table(), field).residual(replica))
     assert target.objective(4) is target.objective(4)
     assert target.cost(replica) == AlignedCost(table())(replica)
-    assert target.goal == 0.18 * light_field.RAW_SCALE
+
+
+def test_a_judge_says_up_to_which_cost_a_replica_surely_counts_as_the_same():
+    paper, fidelity = (MeshTarget(table(), sw.Settings(judge=judge)) for judge in ("paper", "fidelity"))
+    assert paper.goal == 0.18 * light_field.RAW_SCALE
+    assert fidelity.objective()(table(0.69)) < fidelity.goal < fidelity.objective()(table(0.5))
 
 
 def test_nothing_replicates_what_no_view_shows():

@@ -67,7 +67,7 @@ def explain(
     stages = Stages(progress)
     with Workers.of(procedure, settings) as crew:
         stages.begin("describe", len(collection))
-        judge = Judge.of(collection, settings, cache)
+        judge = Judge.of(collection, replace(settings, judge="paper"), cache)  # causes go by light fields
         if references.kind is Drawing:
             drawings = _drawings(iteration, crew, in_place(judge), stages)
             stages.end()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.comparison.light_field.aligned import AlignedCost
+from shapewright.comparison.posed import PosedDifference
 from shapewright.prediction.predictor import Predictor
 from shapewright.progress import Stages
 from shapewright.references import Collection
@@ -41,7 +41,7 @@ def _costs(references: Collection, predictor: Predictor, crew: Workers) -> list[
     def cost(pair: tuple[Shape, Shape | None]) -> float:
         reference, replica = pair
         if isinstance(reference, Mesh) and isinstance(replica, Mesh):
-            return AlignedCost(reference)(replica)
+            return PosedDifference(reference)(replica)
         return np.inf
 
     pairs = [(shape, build.shape) for shape, build in zip(shapes, builds, strict=True)]

@@ -14,6 +14,7 @@ from shapewright.comparison.gaps import Surface
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.leaders import LARGE, group_by_leaders
 from shapewright.comparison.light_field.aligned import AlignedCost, nearest_field
+from shapewright.comparison.posed import PosedDifference
 from shapewright.judging.calibration import is_same
 from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.paper import Metric, light_field_metric
@@ -21,6 +22,10 @@ from shapewright.judging.target import Measures
 from shapewright.judging.verdict import Evidence, Grade, grade_of
 from shapewright.settings import Settings
 from shapewright.shapes import Floats, Mesh, Shape
+
+_GOAL = 1000.0
+"""Of the cost by pictures in place. Of 324 replicas of vessels and houses that were labelled by eye 43 cost less: 36
+good ones, 7 passable ones, none that is wrong."""
 
 
 class MeshTarget:
@@ -40,6 +45,7 @@ class MeshTarget:
         self._surface = functools.cache(functools.partial(Surface, shape, settings.seed))
         self._volume = functools.cache(functools.partial(volumes.Volume.of, shape))
         self._aligned = functools.cache(functools.partial(AlignedCost, shape))
+        self._posed = functools.cache(functools.partial(PosedDifference, shape))
 
     @property
     def descriptor(self) -> light_field.Descriptor | None:
@@ -56,15 +62,16 @@ class MeshTarget:
 
     @property
     def goal(self) -> float:
-        return self._settings.threshold * light_field.RAW_SCALE
+        return _GOAL if self._settings.judge == "fidelity" else self._settings.threshold * light_field.RAW_SCALE
 
-    def objective(self, field: int = 0) -> AlignedCost | None:
-        return self._aligned(field) if self.visible else None
+    def objective(self, field: int = 0) -> AlignedCost | PosedDifference | None:
+        """What the judge sees: pictures in place, or the light field alone."""
+        seen = self._posed if self._settings.judge == "fidelity" else self._aligned
+        return seen(field) if self.visible else None
 
     def cost(self, replica: Shape) -> float:
         """An upper bound of the raw distance."""
-        objective = self.objective()
-        return objective(replica) if objective and isinstance(replica, Mesh) else np.inf
+        return self._aligned(0)(replica) if self.visible and isinstance(replica, Mesh) else np.inf
 
     def nearest(self, replica: Shape | None) -> tuple[float, int]:
         own, other = self.descriptor, _descriptor(replica) if isinstance(replica, Mesh) else None

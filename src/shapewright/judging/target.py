@@ -57,7 +57,7 @@ class Target(Protocol):
 
     @property
     def goal(self) -> float:
-        """The cost of a search up to which a replica is surely compatible; -inf where costs do not tell."""
+        """The cost of a search up to which a replica surely counts as the same; -inf where costs do not tell."""
 
     @property
     def enough(self) -> float:

@@ -54,11 +54,15 @@ class AlignedCost:
         if not isinstance(replica, Mesh):
             return None
         normal = replica.normalised()
-        values = self._coefficients(normal)
-        if not values.any():
+        light = self.light(normal)
+        if light is None:
             return None
-        light = (levels(values) - self._exact) * WEIGHTS
-        return np.concatenate([light.ravel(), (_depths(normal) - self._depths) * (_DEPTH / len(self._depths))])
+        return np.concatenate([light, (_depths(normal) - self._depths) * (_DEPTH / len(self._depths))])
+
+    def light(self, normal: Mesh) -> Floats | None:
+        """(470,): the part of the residual that is the light field's, of a normalised replica."""
+        values = self._coefficients(normal)
+        return ((levels(values) - self._exact) * WEIGHTS).ravel() if values.any() else None
 
     def _coefficients(self, normal: Mesh) -> Floats:
         images = np.empty((VIEWS, SIZE, SIZE), dtype=np.uint8)
