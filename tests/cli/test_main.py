@@ -55,7 +55,7 @@ def test_fit_compare_and_report(project):
     assert first.stdout.count("\n") == 1 and "training" in first.stderr
     assert record["run"] == str(project / "runs" / "001") and record["references"] == 3
     assert record["replicated"] + record["close"] + record["different"] == 3 and record["judge"] == "fidelity"
-    assert record["compatible"] + record["incompatible"] == 3 and set(record["means"]) == set(MEASURES)
+    assert record["compatible"] + record["incompatible"] == 3 and set(record["means"]["replicated"]) == set(MEASURES)
     assert all({"grade", "fidelity", "distance"} <= set(result) for result in record["results"].values())
     assert set(record["seconds"]) >= {"train", "compare"}
     assert set(record["results"]) == {"block 0", "block 1", "block 2"}
@@ -101,8 +101,10 @@ def test_evaluate_prints_a_row_for_each_parameter(project):
     assert run.returncode == 0, run.stderr
     rows = [line.split()[:3] for line in run.stdout.splitlines()]
     assert ["height", "scalar", "MAE"] in rows and ["foot", "binary", "F1"] in rows
+    assert any(row[:2] == ["Fidelity:", "how"] for row in rows) and "IoU of volumes" in run.stdout
     record = last_json(shapewright("evaluate", "stool.py", *QUICK, "--refine", "off", "--json", cwd=project))
     assert set(record["parameters"]["height"]) == {"network"} and len(record["seconds"]) == 1
+    assert set(record["means"]) == {"all", "replicated"} and record["means"]["all"]["iou"] is None
     compared = ("evaluate", "stool.py", *QUICK, "--refine", "off", "--compare", "cameras", "--json")
     found = last_json(shapewright(*compared, cwd=project))["variants"]
     assert [variant["cameras"] for variant in found] == ["fixed", "learned"]

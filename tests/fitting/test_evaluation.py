@@ -57,6 +57,7 @@ def test_refinement_is_measured_on_as_many_held_out_samples_as_asked_for():
     (trial,) = evaluate(slab, settings, refined=4)
     assert trial.refined["s"]["rows"] == trial.refined["c"]["rows"] == 4 < trial.metrics["s"]["rows"]
     assert trial.refined["s"]["mae"] < trial.metrics["s"]["mae"]
+    assert len(trial.measured) == len(trial.grades) == 4 and all(measures.iou > 0.5 for measures in trial.measured)
 
 
 def test_calibration_makes_the_mean_spread_right_and_leaves_values_alone():

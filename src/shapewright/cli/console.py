@@ -25,6 +25,8 @@ from shapewright.settings import Settings
 if TYPE_CHECKING:
     from shapewright.fitting.evaluation import Evaluation
     from shapewright.judging.calibration import Calibration
+    from shapewright.judging.target import Measures
+    from shapewright.judging.verdict import Grade
     from shapewright.runs.changes import Comparison
     from shapewright.runs.iteration import Iteration
 
@@ -104,6 +106,7 @@ def print_iteration(iteration: Iteration, folder: Path) -> None:
             out.print(f"  {escape(path)}: {escape(reason)}", highlight=False, soft_wrap=True)
     if iteration.metrics["failed"]:
         out.print(f"[yellow]{iteration.metrics['failed']} samples failed:[/] {escape(iteration.metrics['failures'])}")
+    print_means([result.measured for result in iteration], [result.grade for result in iteration])
     if iteration.groups:
         value = "fidelity" if iteration.settings.judge == "fidelity" else "distance"
         table = Table("group", "references", value, box=None, header_style="dim", title_justify="left")
@@ -142,6 +145,29 @@ def _counts(iteration: Iteration) -> str:
     )
 
 
+def print_means(measured: Sequence[Measures], grades: Sequence[Grade]) -> None:
+    """The mean of each measure, of all references and of the replicated ones."""
+    from shapewright.judging.target import Measures, means
+
+    found = [of.by_name() for of in means(measured, grades).values()]
+    table = Table("mean measure", "all", "replicated", box=None, header_style="dim")
+    for name, words in Measures.words().items():
+        if not math.isnan(found[0][name]):
+            table.add_row(words, *("" if math.isnan(of[name]) else f"{of[name]:.3f}" for of in found))
+    if table.rows:
+        out.print(table)
+
+
+def means_record(measured: Sequence[Measures], grades: Sequence[Grade]) -> dict[str, dict[str, float | None]]:
+    """The same for JSON; NaN becomes null."""
+    from shapewright.judging.target import means
+
+    return {
+        which: {name: None if math.isnan(value) else value for name, value in of.by_name().items()}
+        for which, of in means(measured, grades).items()
+    }
+
+
 def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
     """What ``fit --json`` prints."""
     from shapewright.runs.result import MEASURES
@@ -158,10 +184,10 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
         "different": len(iteration.different),
         "compatible": len(iteration.compatible),
         "incompatible": len(iteration) - len(iteration.compatible),
-        "means": {name: None if math.isnan(mean) else mean for name, mean in iteration.means.items()},
         "skipped": record["collection"]["skipped"],
         "groups": record["groups"],
         "worth_marking": record["worth_marking"],
+        "means": means_record([result.measured for result in iteration], [result.grade for result in iteration]),
         "metrics": record["metrics"]["validation"],
         "failed_samples": record["metrics"]["failed"],
         "seconds": record["seconds"],
@@ -217,7 +243,17 @@ def print_evaluations(evaluations: Sequence[Evaluation]) -> None:
         shares = [f"{first[name][key]:.2f}" for key in ("within50", "within90") if key in first[name]]
         table.add_row(escape(name), first[name]["kind"], measure, *cells, ", ".join(shares))
     out.print(table)
+    print_means(*_refined_replicas(evaluations))
     out.print(f"[dim]{sum(e.seconds for e in evaluations) / len(evaluations):.0f} s to train[/]", highlight=False)
+
+
+def evaluation_means(evaluations: Sequence[Evaluation]) -> dict[str, dict[str, float | None]]:
+    """Of the refined replicas of held-out samples, see ``means_record``."""
+    return means_record(*_refined_replicas(evaluations))
+
+
+def _refined_replicas(evaluations: Sequence[Evaluation]) -> tuple[list[Measures], list[Grade]]:
+    return [m for each in evaluations for m in each.measured], [g for each in evaluations for g in each.grades]
 
 
 def _range(mean: float, low: float, high: float) -> str:

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from shapewright.cli.console import out, print_evaluations, print_json, progress_bars
+from shapewright.cli.console import evaluation_means, out, print_evaluations, print_json, progress_bars
 from shapewright.cli.options import Json, PresetOption, ProcedureArgument, with_settings
 from shapewright.procedures import load_procedure
 from shapewright.settings import Settings
@@ -39,7 +39,7 @@ def evaluate(
         seconds = [result.seconds for result in results]
         table = summary(results)
         record = {"cameras": variant.cameras, "views": variant.views, "parameters": table, "seconds": seconds}
-        records.append(record)
+        records.append(record | {"means": evaluation_means(results)})
         if not json:
             if compare:
                 out.print(f"\n[bold]{variant.cameras} cameras, {variant.views}[/]", highlight=False)

@@ -11,6 +11,8 @@ import numpy as np
 from shapewright.building import Workers
 from shapewright.fitting.learning import Lesson, learn
 from shapewright.judging.judge import Judge
+from shapewright.judging.target import Measures
+from shapewright.judging.verdict import Grade
 from shapewright.parameters import Prediction
 from shapewright.prediction.inference import Metrics, score
 from shapewright.procedures import Procedure
@@ -31,6 +33,8 @@ class Evaluation:
     metrics: Metrics  # of the network alone, by parameter; see ``prediction.inference.score``
     refined: Metrics | None  # of parameters after the search, on the first held-out samples; None where it is off
     seconds: float  # that the training took, building samples included
+    measured: tuple[Measures, ...] = ()  # how the refined replicas differ from the held-out samples
+    grades: tuple[Grade, ...] = ()  # of these replicas
 
 
 def evaluate(
@@ -53,9 +57,10 @@ def evaluate(
             lesson = learn(crew, chosen, stages)
             stages.end()
             seconds = sum(stages.seconds.values())
-            metrics = None if chosen.refine == "off" else _refined(crew, lesson, chosen, stages, refined)
+            metrics = lesson.predictor.metrics
+            after = (None, (), ()) if chosen.refine == "off" else _refined(crew, lesson, chosen, stages, refined)
         stages.end()
-        evaluations.append(Evaluation(chosen, lesson.predictor.metrics, metrics, seconds))
+        evaluations.append(Evaluation(chosen, metrics, after[0], seconds, *after[1:]))
     return evaluations
 
 
@@ -78,8 +83,10 @@ def summary(evaluations: Sequence[Evaluation]) -> dict[str, dict[str, tuple[floa
     return table
 
 
-def _refined(crew: Workers, lesson: Lesson, settings: Settings, stages: Stages, count: int) -> Metrics:
-    """The metrics after refinement, on the first ``count`` held-out rows."""
+def _refined(
+    crew: Workers, lesson: Lesson, settings: Settings, stages: Stages, count: int
+) -> tuple[Metrics, tuple[Measures, ...], tuple[Grade, ...]]:
+    """The metrics after refinement, on the first ``count`` held-out rows; measures and grades of these replicas."""
     held_out = lesson.held_out.take(np.arange(min(count, len(lesson.held_out))))
     shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
     judge = Judge.of(shapes, settings)
@@ -89,4 +96,7 @@ def _refined(crew: Workers, lesson: Lesson, settings: Settings, stages: Stages, 
     criterion = judge.criterion(range(len(fields)), fields)
     start, budget = SearchStart(prediction), lesson.budget(settings)
     refined = refine(start, criterion, crew, budget, settings.seed, stages.step)
-    return score(Prediction.of(crew.procedure.space, refined), held_out.targets, held_out.active)
+    metrics = score(Prediction.of(crew.procedure.space, refined), held_out.targets, held_out.active)
+    builds = crew.build(refined)
+    measured = judge.measures(builds, judge.distances(builds))
+    return metrics, tuple(measured), tuple(judge.grades(measured))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Protocol, Self, get_type_hints
+from typing import Annotated, Literal, Protocol, Self, get_type_hints
 
 from shapewright.comparison.grouping import Group
 from shapewright.judging.paper import Metric
@@ -17,16 +17,20 @@ from shapewright.shapes import Shape
 
 @dataclass(frozen=True)
 class Measures:
-    """How a replica differs from its reference; NaN for what cannot be measured. Records and tables go over these."""
+    """How a replica differs from its reference; NaN for what cannot be measured. Records and tables go over these.
 
-    distance: Annotated[float, "The paper's: light-field distance of meshes, 1 - VIF of drawings"] = math.nan
+    The Chamfer distance and F-scores are those of surfaces, of drawings of outlines. Depth and volumes are of meshes
+    alone, and the IoU of volumes is of two that enclose one.
+    """
+
+    distance: Annotated[float, "The paper's: light-field distance, or 1 - VIF"] = math.nan
     iou: Annotated[float, "IoU of silhouettes, or of areas"] = math.nan
-    chamfer: Annotated[float, "Chamfer distance of surfaces, or of outlines, in largest extents"] = math.nan
-    depth: Annotated[float, "Difference of depth pictures, 0 to 1; of meshes only"] = math.nan
+    chamfer: Annotated[float, "Chamfer distance, in largest extents"] = math.nan
+    depth: Annotated[float, "Difference of depth pictures, 0 to 1"] = math.nan
     fidelity: Annotated[float, "Fidelity: how likely a person calls the two the same"] = math.nan
-    volume_iou: Annotated[float, "IoU of volumes; of meshes that enclose one"] = math.nan
-    f1: Annotated[float, "F-score of surfaces, or of outlines, at 1 % of the largest extent"] = math.nan
-    f2: Annotated[float, "F-score of surfaces, or of outlines, at 2 % of the largest extent"] = math.nan
+    volume_iou: Annotated[float, "IoU of volumes"] = math.nan
+    f1: Annotated[float, "F-score at 1 % of the largest extent"] = math.nan
+    f2: Annotated[float, "F-score at 2 % of the largest extent"] = math.nan
 
     def by_name(self) -> dict[str, float]:
         return dict(vars(self))
@@ -35,6 +39,19 @@ class Measures:
     def words(cls) -> dict[str, str]:
         """What each measure is, by name."""
         return {name: hint.__metadata__[0] for name, hint in get_type_hints(cls, include_extras=True).items()}
+
+
+def means(measured: Sequence[Measures], grades: Sequence[Grade]) -> dict[Literal["all", "replicated"], Measures]:
+    """The mean of each measure over the pairs where it can be taken: of all, and of the replicated ones."""
+    replicated = [each for each, grade in zip(measured, grades, strict=True) if grade == "replicated"]
+    return {"all": mean(measured), "replicated": mean(replicated)}
+
+
+def mean(measured: Sequence[Measures]) -> Measures:
+    """Of each measure over the pairs where it can be taken; NaN where it never can."""
+    columns = zip(*(each.by_name().values() for each in measured), strict=True)
+    finite = [[value for value in column if math.isfinite(value)] for column in columns]
+    return Measures(*(sum(column) / len(column) if column else math.nan for column in finite))
 
 
 class Target(Protocol):

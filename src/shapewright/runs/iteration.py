@@ -11,10 +11,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from shapewright.comparison.grouping import Group
 from shapewright.judging.paper import Metric
+from shapewright.judging.target import mean
 from shapewright.judging.verdict import Grade
 from shapewright.prediction.predictor import Predictor
 from shapewright.rendering.thumbnails import thumbnails
@@ -110,10 +109,7 @@ class Iteration:
     @property
     def means(self) -> dict[str, float]:
         """The mean of each measure over the references where it can be taken, by name; NaN where it never can."""
-        columns = {
-            name: [r.measures[name] for r in self.results if math.isfinite(r.measures[name])] for name in MEASURES
-        }
-        return {name: float(np.mean(values)) if values else math.nan for name, values in columns.items()}
+        return mean([result.measured for result in self.results]).by_name()
 
     def _of_grade(self, *grades: Grade) -> tuple[str, ...]:
         return tuple(result.name for result in self.results if result.grade in grades)
