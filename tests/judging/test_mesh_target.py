@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.target import Measures
 from shapewright.modelling.drawing import circle
 from shapewright.modelling.solids import box
-from shapewright.shapes import Mesh
+from shapewright.shapes import Mesh, concatenate
 from shapewright.threads import in_threads
 
 NEEDLE = Mesh(np.array([[0.0, 0, 0], [1e-9, 1, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
@@ -112,3 +113,19 @@ def test_any_thread_may_ask_first(asked, tmp_path):
     alone = [getattr(MeshTarget(table(), SETTINGS), asked)(replica) for replica in replicas]
     assert in_threads(getattr(target, asked), replicas, 4) == alone
     assert len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.parametrize("large", [1000, 1])
+def test_misfits_are_grouped_by_what_they_lack_but_not_where_the_paper_judges(large, monkeypatch):
+    monkeypatch.setattr("shapewright.judging.mesh_target.LARGE", large)
+    shelf, back = box((0.8, 0.06, 0.6)).mesh(), box((1, 0.4, 0.04), at=(0, 0.1, -0.38)).mesh()
+    plain = {f"{height}": table(height) for height in (0.6, 0.7, 1.3, 1.4)}
+    whole = {name: concatenate([mesh, shelf if name in ("0.6", "1.4") else back]) for name, mesh in plain.items()}
+    replicas, grades = [plain[name] for name in sorted(plain)], ["different"] * 4
+    judge = Judge.of(sw.Collection.of(whole), replace(SETTINGS, cut=0.3))
+    assert {frozenset(found.members) for found in judge.groups(grades, replicas)} == {
+        frozenset({"0.6", "1.4"}),
+        frozenset({"0.7", "1.3"}),
+    }
+    papers = Judge.of(judge.references, replace(SETTINGS, judge="paper"))
+    assert papers.groups(grades, replicas) == papers.groups(grades)

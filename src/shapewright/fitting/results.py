@@ -31,7 +31,7 @@ def judged(
     builds = [build for build in replicas.builds if build]
     measures = judge.measures(builds, replicas.distances, replicas.evidence)
     grades, compatible = judge.grades(measures), judge.compatible(measures)
-    groups = judge.groups(grades)
+    groups = judge.groups(grades, [build.shape for build in builds])
     group_of = {name: i for i, group in enumerate(groups) for name in group.members}
     results = tuple(
         Result(

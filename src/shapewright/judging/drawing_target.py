@@ -13,12 +13,13 @@ from shapewright.comparison.blurred import PARTS, UNIT, BlurredDifference
 from shapewright.comparison.gaps import Boundary
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
+from shapewright.comparison.remainders import CUT, mixed
 from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.paper import Metric, vif_metric
 from shapewright.judging.target import Measures
 from shapewright.judging.verdict import Evidence, Grade, grade_of
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Shape
+from shapewright.shapes import Drawing, Floats, Shape
 
 ENOUGH = 0.8  # black pixels that make no difference: half a percent of a table of thin lines
 
@@ -91,11 +92,16 @@ class DrawingTarget:
         return grade_of(measures.fidelity, self._settings)
 
     @classmethod
-    def groups(cls, names: Sequence[str], targets: Sequence[DrawingTarget], settings: Settings) -> tuple[Group, ...]:
+    def groups(
+        cls, names: Sequence[str], targets: Sequence[DrawingTarget], settings: Settings, left: Floats | None = None
+    ) -> tuple[Group, ...]:
         """By the likeness of their outlines."""
         described = [found for target in targets if (found := target.outline)]
-        # The absolute cut of the settings is a light-field distance, which has another scale.
-        return group(names, outline.distances(described, align=settings.align), settings.cut)
+        apart = outline.distances(described, align=settings.align)
+        if left is None or len(names) < 2:
+            # The absolute cut of the settings is a light-field distance, which has another scale.
+            return group(names, apart, settings.cut)
+        return group(names, mixed(apart / max(float(apart.max()), 1e-9), left, left), CUT * settings.cut, True)
 
 
 def _outline(drawing: Drawing) -> outline.Outline | None:

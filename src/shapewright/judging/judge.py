@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from shapewright.building import Build
 from shapewright.comparison.grouping import Group
+from shapewright.comparison.remainders import remainder
 from shapewright.judging.drawing_target import DrawingTarget
 from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.paper import Metric
@@ -125,12 +126,20 @@ class Judge:
         """The grade of one replica for each reference, by the judge of the settings."""
         return [target.grade(each) for target, each in zip(self.targets, measures, strict=True)]
 
-    def groups(self, grades: Sequence[Grade]) -> tuple[Group, ...]:
-        """The visible references that are not replicated, by likeness to each other. grades: of all."""
+    def groups(self, grades: Sequence[Grade], replicas: Sequence[Shape | None] | None = None) -> tuple[Group, ...]:
+        """The visible references that are not replicated, by likeness to each other.
+
+        With replicas what is left between these and the references counts as well: a group lacks one thing. Where the
+        paper judges, or the cut is a light-field distance, likeness alone counts. grades, replicas: of all.
+        """
         pairs = enumerate(zip(self.targets, grades, strict=True))
         rows = [i for i, (target, grade) in pairs if target.visible and grade != "replicated"]
         names = [self.references.names[i] for i in rows]
-        return type(self.targets[0]).groups(names, self._targets(rows), self.settings)
+        left = None
+        if replicas is not None and rows and self.settings.judge != "paper" and not self.settings.cut_absolute:
+            pairs_left = [(self.targets[i].shape, replicas[i]) for i in rows]
+            left = np.stack(in_threads(lambda pair: remainder(*pair), pairs_left, self.settings.workers))
+        return type(self.targets[0]).groups(names, self._targets(rows), self.settings, left)
 
     def _targets(self, rows: Rows | None) -> Sequence[Target]:
         return self.targets if rows is None else [self.targets[int(row)] for row in rows]

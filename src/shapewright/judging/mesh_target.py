@@ -15,9 +15,10 @@ from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.leaders import LARGE, group_by_leaders
 from shapewright.comparison.light_field.aligned import AlignedCost, nearest_field
 from shapewright.comparison.posed import PosedDifference
+from shapewright.comparison.remainders import CUT, mixed
 from shapewright.judging.calibration import is_same
 from shapewright.judging.fidelity import Fidelity
-from shapewright.judging.paper import Metric, light_field_metric
+from shapewright.judging.paper import FAR, Metric, light_field_metric
 from shapewright.judging.target import Measures
 from shapewright.judging.verdict import Evidence, Grade, grade_of
 from shapewright.settings import Settings
@@ -26,6 +27,7 @@ from shapewright.shapes import Floats, Mesh, Shape
 _GOAL = 1000.0
 """Of the cost by pictures in place. Of 324 replicas of vessels and houses that were labelled by eye 43 cost less: 36
 good ones, 7 passable ones, none that is wrong."""
+_FAR = FAR * Settings.threshold  # light-field distance from which on two references have nothing in common
 
 
 class MeshTarget:
@@ -111,17 +113,21 @@ class MeshTarget:
         return grade_of(measures.fidelity, self._settings)
 
     @classmethod
-    def groups(cls, names: Sequence[str], targets: Sequence[MeshTarget], settings: Settings) -> tuple[Group, ...]:
+    def groups(
+        cls, names: Sequence[str], targets: Sequence[MeshTarget], settings: Settings, left: Floats | None = None
+    ) -> tuple[Group, ...]:
         described = [descriptor for target in targets if (descriptor := target.descriptor)]
+        cut, absolute = (settings.cut, settings.cut_absolute) if left is None else (CUT * settings.cut, True)
         if len(names) <= LARGE:
             apart = light_field.distances(described, align=settings.align, threads=settings.workers)
-            return group(names, apart, settings.cut, settings.cut_absolute)
+            return group(names, apart if left is None else mixed(apart / _FAR, left, left), cut, absolute)
 
         def between(some: Sequence[int], others: Sequence[int]) -> Floats:
             rows, columns = [described[i] for i in some], [described[i] for i in others]
-            return light_field.distances(rows, columns, settings.align, 1)
+            apart = light_field.distances(rows, columns, settings.align, 1)
+            return apart if left is None else mixed(apart / _FAR, left[some], left[others])
 
-        return group_by_leaders(names, between, settings.cut, settings.cut_absolute, threads=settings.workers)
+        return group_by_leaders(names, between, cut, absolute, threads=settings.workers)
 
 
 def _descriptor(mesh: Mesh, cache: Path | None = None) -> light_field.Descriptor | None:

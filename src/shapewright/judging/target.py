@@ -12,7 +12,7 @@ from shapewright.judging.paper import Metric
 from shapewright.judging.verdict import Evidence, Grade
 from shapewright.search.objective import Objective
 from shapewright.settings import Settings
-from shapewright.shapes import Shape
+from shapewright.shapes import Floats, Shape
 
 
 @dataclass(frozen=True)
@@ -110,5 +110,10 @@ class Target(Protocol):
         """The grade of a replica with these measures, by the judge of the settings."""
 
     @classmethod
-    def groups(cls, names: Sequence[str], targets: Sequence[Self], settings: Settings) -> tuple[Group, ...]:
-        """Visible references, by likeness to each other."""
+    def groups(
+        cls, names: Sequence[str], targets: Sequence[Self], settings: Settings, left: Floats | None = None
+    ) -> tuple[Group, ...]:
+        """Visible references, by likeness to each other, and by what is ``left`` between them and their replicas.
+
+        left: (N, K), see ``remainders``.
+        """
