@@ -231,7 +231,7 @@ def main() -> None:
             others = ", ".join(f"{kind} {n}" for kind, n in kinds.most_common() if kind not in case.right)
             print(
                 f"{case.name:20} {len(concerned):3} incompatible  {case.right[0]:17} {right:3}   {others}"
-                f"   [{len(iteration.incompatible)} of {len(iteration)} explained in {seconds:.0f} s]",
+                f"   [{len(iteration.misfits)} of {len(iteration)} explained in {seconds:.0f} s]",
                 flush=True,
             )
             if arguments.verbose:

@@ -37,7 +37,7 @@ def main() -> None:
     truth = {f"{i:03d}": vector for i, vector in enumerate(whole.space.sample(arguments.count, seed=arguments.seed))}
     references = sw.Collection.of({name: whole(**vector) for name, vector in truth.items()})
     iteration = made(Case("", ()), procedure, references, truth, settings)
-    print(f"{len(iteration.incompatible)} of {len(iteration)} references are incompatible", flush=True)
+    print(f"{len(iteration.misfits)} of {len(iteration)} references are incompatible", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         Judge.of(references, settings, Path(folder))
         few = [result.name for result in iteration.results if not result.compatible][:2]

@@ -146,7 +146,7 @@ def searched(
         for replica, (row, start) in zip(measured(asked, crew, judge), asked, strict=True)
     ]
     best = nearest_replicas(known, Prediction.of(space, starts, doubt=0.4), crew, judge)
-    return [(b, replica) for b, replica in zip(builds, best, strict=True) if replica.distance > settings.threshold]
+    return [(b, replica) for b, replica in zip(builds, best, strict=True) if replica.apart > 1.0]
 
 
 def explained(procedure: sw.Procedure, lost: list[tuple[Build, Replica]], crew: Workers, judge: Judge) -> list[Case]:

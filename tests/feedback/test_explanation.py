@@ -103,7 +103,7 @@ def explanation(procedure):
         "lame": four,
     }
     references = sw.Collection.of(shapes)
-    settings = sw.Settings(workers=1, threshold=0.12)
+    settings = sw.Settings(workers=1, threshold=0.12, judge="paper")
     return explain(iteration_of(procedure, references, found, settings), procedure, references, suggest=False)
 
 
@@ -111,9 +111,9 @@ def chief(explanation, name):
     return explanation.references[name].causes[0]
 
 
-def test_a_compatible_reference_has_no_causes(explanation):
+def test_a_replicated_reference_has_no_causes(explanation):
     fine = explanation.references["fine"]
-    assert fine.compatible and fine.causes == () and fine.residuals.regions == ()
+    assert fine.replicated and fine.causes == () and fine.residuals.regions == ()
 
 
 def test_another_choice(explanation):
@@ -168,7 +168,7 @@ def test_the_record_is_plain_and_whole(explanation):
 def test_only_what_no_parameters_solve_is_asked_suggestions_for(procedure, monkeypatch):
     references = sw.Collection.of({"tall": procedure(1.15, 0.6, "post"), "post": procedure(0.6, 0.6, "post")})
     vectors = {name: {"height": 0.6, "breadth": 0.6, "legs": "four"} for name in references.names}
-    settings = sw.Settings(workers=1, threshold=0.12)
+    settings = sw.Settings(workers=1, threshold=0.12, judge="paper")
     asked = []
 
     def suggestions(procedure, cases, crew, judge, stages):
@@ -180,10 +180,21 @@ def test_only_what_no_parameters_solve_is_asked_suggestions_for(procedure, monke
     assert asked == ["tall"] and found.suggestions[0].title == "longer"
 
 
+def test_what_a_person_calls_different_is_told_by_its_fidelity(procedure):
+    references = sw.Collection.of({"misjudged": procedure(height=0.6, breadth=0.6, legs="post")})
+    found = {"misjudged": {"height": 0.6, "breadth": 0.6, "legs": "four"}}
+    settings = sw.Settings(workers=1, threshold=10.0)
+    iteration = iteration_of(procedure, references, found, settings)
+    iteration = replace(iteration, results=tuple(replace(result, grade="different") for result in iteration))
+    told = explain(iteration, procedure, references, suggest=False).references["misjudged"]
+    assert told.replica.apart > 1.0 >= told.nearest.apart
+    assert "legs is post, not four: the fidelity rises from 0." in told.causes[0].text
+
+
 def test_choices_stay_where_other_numbers_do_as_well(procedure):
     """The post that was found alike does no better than legs of the right breadth."""
     references = sw.Collection.of({"four": procedure(0.6, 0.5, "four"), "post": procedure(0.6, 0.5, "post")})
-    judge = Judge.of(references, sw.Settings(workers=1, threshold=0.05))
+    judge = Judge.of(references, sw.Settings(workers=1, threshold=0.05, judge="paper"))
     with Workers(procedure, 1) as crew:
         before = measured([(row, {"height": 0.6, "breadth": 0.9, "legs": "four"}) for row in (0, 1)], crew, judge)
         best = measured(

@@ -3,6 +3,7 @@
 import base64
 import json
 
+import numpy as np
 import pytest
 
 import shapewright as sw
@@ -41,19 +42,19 @@ def table(tmp_path):
     return sw.load_procedure(path)
 
 
-def suggested(table, shapes, vectors, monkeypatch):
+def suggested(table, shapes, vectors, monkeypatch, judge="paper"):
     monkeypatch.setattr("shapewright.feedback.suggestions.EVALUATIONS", 900)
     references = sw.Collection.of(shapes)
-    judge = Judge.of(references, sw.Settings(workers=1))
+    judge = Judge.of(references, sw.Settings(workers=1, judge=judge))
     with Workers(table, 1) as crew:
         builds = crew.build(vectors)
-        distances = judge.distances(builds)
+        standings = judge.standings(builds)
         cases = []
-        for row, (reference, build, distance) in enumerate(zip(references, builds, distances, strict=True)):
-            replica = Replica(row, build.parameters, build.shape, float(distance))
+        for row, (reference, build, standing) in enumerate(zip(references, builds, standings, strict=True)):
+            replica = Replica.of(row, build, standing)
             where = residuals(reference.shape, build.shape)
             cases.append(Case.of(reference.name, reference.shape, False, replica, where))
-        return suggestions(table, cases, crew, judge, limit=3), distances
+        return suggestions(table, cases, crew, judge, limit=3), np.array([standing.distance for standing in standings])
 
 
 def with_block(table, height, depth):
@@ -92,6 +93,19 @@ def test_a_longer_range_is_suggested(table, tmp_path, monkeypatch):
     path = tmp_path / "changed.py"
     path.write_text(ranges[0].source)
     assert sw.load_procedure(path).space["height"].high > 1.2
+
+
+def test_a_suggestion_makes_replicated_what_a_person_calls_different(table, tmp_path, monkeypatch):
+    shapes = {f"bar{i}": table(height=height, depth=0.4) for i, height in enumerate((1.3, 1.5, 1.4))}
+    made, _ = suggested(table, shapes, [{"height": 0.8, "depth": 0.4}] * 3, monkeypatch, judge="fidelity")
+    best = made[0]
+    assert best.gain > 0 and f"{best.gain} of 3 misfits would become replicated" in best.text
+    path = tmp_path / "changed.py"
+    path.write_text(best.source)
+    changed = sw.load_procedure(path)
+    for name in best.references:
+        assert sw.fidelity(table(height=0.8, depth=0.4), shapes[name]).grade == "different"
+        assert sw.fidelity(changed(**best.tried["parameters"][name]), shapes[name]).grade == "replicated"
 
 
 def test_nothing_is_suggested_for_what_the_procedure_can_do(table, monkeypatch):

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from shapewright.building import Build
 from shapewright.feedback.surfaces.areas import Areas
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import Residuals
+from shapewright.judging.verdict import Standing
 from shapewright.parameters import Parameters
 from shapewright.shapes import Drawing, Mesh, Shape
 
@@ -33,6 +36,15 @@ class Replica:
     shape: Shape
     distance: float  # to the reference, 0 and up: the light field distance; of drawings the share that lies apart
     field: int = 0  # index of the light field in which the two differ least: a search goes by it
+    apart: float = math.inf  # from a perfect replica, by the judge: at most 1 is replicated
+    fidelity: float = math.nan  # by the judge; NaN where it goes by the distance
+
+    @classmethod
+    def of(cls, row: int, build: Build, standing: Standing) -> Replica | None:
+        """None where no shape could be built or measured."""
+        if build.shape is None or math.isnan(standing.distance) or math.isnan(standing.apart):
+            return None
+        return cls(row, build.parameters, build.shape, **vars(standing))
 
     @property
     def mesh(self) -> Mesh:

@@ -6,8 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-import numpy as np
-
 from shapewright.building import Build, Workers
 from shapewright.feedback.case import Case, DrawnCase, Replica
 from shapewright.feedback.causes.causes import causes
@@ -67,7 +65,7 @@ def explain(
     stages = Stages(progress)
     with Workers.of(procedure, settings) as crew:
         stages.begin("describe", len(collection))
-        judge = Judge.of(collection, replace(settings, judge="paper"), cache)  # causes go by light fields
+        judge = Judge.of(collection, settings, cache)
         if references.kind is Drawing:
             drawings = _drawings(iteration, crew, in_place(judge), stages)
             stages.end()
@@ -76,7 +74,7 @@ def explain(
         cases = _cases(iteration, crew, judge)
         stages.begin("causes", 4)
         cases = causes(cases, iteration.predictor, crew, judge, stages)
-        unsolved = [case for case in cases if case.nearest.distance > settings.threshold]
+        unsolved = [case for case in cases if case.nearest.apart > 1.0]
         changes = suggestions(procedure, unsolved, crew, judge, stages) if suggest else ()
         stages.end()
     return _explanation(procedure, cases, changes, stages)
@@ -99,11 +97,10 @@ def _collection(references: Collection, iteration: Iteration) -> Collection:
 def _cases(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]:
     """A case for each reference whose replica can be built and measured."""
     results = iteration.results
-    replicas = [
-        Replica(row, build.parameters, build.shape, results[row].distance)
-        for row, build in _built(iteration, crew)
-        if isinstance(build.shape, Mesh) and np.isfinite(results[row].distance)
-    ]
+    built = [(row, build) for row, build in _built(iteration, crew) if isinstance(build.shape, Mesh)]
+    standings = judge.standings([build for _, build in built], [row for row, _ in built])
+    found = [Replica.of(row, build, standing) for (row, build), standing in zip(built, standings, strict=True)]
+    replicas = [replica for replica in found if replica]
 
     def case(replica: Replica) -> Case:
         result, reference = results[replica.row], judge.references.references[replica.row].shape
@@ -118,12 +115,12 @@ def _drawings(iteration: Iteration, crew: Workers, judge: Judge, stages: Stages)
     """The same of drawings, with their causes. judge: ``in_place``."""
     stages.begin("differences", 3)
     built = [(row, build) for row, build in _built(iteration, crew) if isinstance(build.shape, Drawing)]
-    apart = judge.distances([build for _, build in built], [row for row, _ in built])
+    standings = judge.standings([build for _, build in built], [row for row, _ in built])
     cases = []
-    for (row, build), distance in zip(built, apart.tolist(), strict=True):
+    for (row, build), standing in zip(built, standings, strict=True):
         result, reference = iteration.results[row], judge.references.references[row].shape
-        if isinstance(reference, Drawing) and isinstance(build.shape, Drawing) and np.isfinite(distance):
-            replica = Replica(row, build.parameters, build.shape, distance)
+        replica = Replica.of(row, build, standing)
+        if isinstance(reference, Drawing) and isinstance(build.shape, Drawing) and replica:
             where = areas(reference, build.shape)
             cases.append(DrawnCase.of(result.name, reference, result.grade == "replicated", replica, where))
     stages.begin("causes", 4)

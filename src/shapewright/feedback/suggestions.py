@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from shapewright.building import Workers
+from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.feedback.case import Case
 from shapewright.feedback.ideas.hypotheses import hypotheses
 from shapewright.feedback.ideas.hypothesis import Hypothesis
@@ -39,7 +40,7 @@ _PICTURED = 3  # references in the picture of a suggestion
 
 @dataclass(frozen=True, eq=False)
 class Suggestion:
-    """A change of the author's file that makes references compatible, tried on them."""
+    """A change of the author's file that makes references replicated, tried on them."""
 
     kind: str  # "range", "new part", "part replaced", "moved part" or "part removed"
     title: str  # what changes
@@ -47,12 +48,12 @@ class Suggestion:
     snippet: str  # new and changed definitions, to paste into the file; for a Range, changed lines of the signature
     source: str  # the whole changed file
     picture: bytes  # PNG with a row for each of a few references, see ``cards.card``
-    references: tuple[str, ...]  # names of those that become compatible
+    references: tuple[str, ...]  # names of those that become replicated
     tried: Mapping[str, Any] = field(default_factory=dict)  # what was measured
 
     @property
     def gain(self) -> int:
-        """How many references become compatible; none is lost."""
+        """How many references become replicated; none is lost."""
         return len(self.references)
 
 
@@ -64,7 +65,7 @@ def suggestions(
     stages: Stages | None = None,
     limit: int = 5,
 ) -> tuple[Suggestion, ...]:
-    """What would make most of the cases compatible, the largest gain first; empty if nothing would.
+    """What would make most of the cases replicated, the largest gain first; empty if nothing would.
 
     cases: those that no parameters of the procedure replicate, as a longer search has shown. crew: builds shapes of the
     procedure. limit: of the number of suggestions. The same seed gives the same suggestions.
@@ -91,6 +92,8 @@ def _misfits(cases: Sequence[Case], judge: Judge) -> list[Misfit]:
     count = min(_STUDIED, len(cases))
     studied = {cases[i].row for i in np.linspace(0, len(cases) - 1, count).astype(int)}
 
+    goal = judge.settings.threshold * RAW_SCALE  # hypotheses are priced by light fields, whichever judge it is
+
     def study(case: Case) -> Misfit:
         guesses: list[Hypothesis] = []
         if case.row in studied:
@@ -98,7 +101,7 @@ def _misfits(cases: Sequence[Case], judge: Judge) -> list[Misfit]:
             guesses = hypotheses(
                 case.covering_residuals, case.reference, replica, lambda meshes: [cost(mesh) for mesh in meshes]
             )
-        return Misfit(case.covering, case.nearest, case.outside, tuple(guesses[:_HYPOTHESES]), judge.goal)
+        return Misfit(case.covering, case.nearest, case.outside, tuple(guesses[:_HYPOTHESES]), goal)
 
     return in_threads(study, cases, judge.settings.workers)
 
@@ -113,7 +116,7 @@ def _always(space: ParameterSpace, crew: Workers, seed: int) -> list[str]:
 def _suggestion(change: Change, procedure: Procedure, cases: Mapping[int, Case], judge: Judge) -> Suggestion:
     """cases: all, by row."""
     idea, outcome = change.proposal, change.outcome
-    rows = sorted(outcome.compatible, key=lambda row: outcome.distance(row) - cases[row].nearest.distance)
+    rows = sorted(outcome.replicated, key=lambda row: outcome.apart(row) - cases[row].nearest.apart)
     names = judge.references.names
     examples = []
     for row in rows[:_PICTURED]:
@@ -130,17 +133,17 @@ def _suggestion(change: Change, procedure: Procedure, cases: Mapping[int, Case],
         tuple(names[row] for row in sorted(rows)),
         {
             "tried": len(outcome.counted),
-            "compatible": len(rows),
+            "replicated": len(rows),
             "lost": 0,
             "before": float(np.mean([cases[row].nearest.distance for row in rows])),
-            "after": float(np.mean([outcome.distance(row) for row in rows])),
+            "after": float(np.mean([outcome.replicas[row].distance for row in rows])),
             "parameters": {names[row]: outcome.parameters[row] for row in rows},
         },
     )
 
 
 def _text(change: Change, procedure: Procedure, gain: int, misfits: int) -> str:
-    would = f"{gain} of {misfits} incompatible references would become compatible"
+    would = f"{gain} of {misfits} misfits would become replicated"
     if change.proposal.rule is None:
         changes = []
         for name, (low, high, _) in change.ranges.items():

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +18,12 @@ from shapewright.judging.drawing_target import DrawingTarget
 from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import Measures, Target
-from shapewright.judging.verdict import Evidence, Grade, Verdict
+from shapewright.judging.verdict import Evidence, Grade, Standing, Verdict, apart_of
 from shapewright.references import Collection
 from shapewright.search.objective import Criterion, Measure, measure_of
 from shapewright.settings import Settings
 from shapewright.shapes import Floats, Ints, Mesh, Shape
+from shapewright.shapes.conversion import as_shape
 from shapewright.threads import in_threads
 
 Rows = Sequence[int] | Ints  # indices of references in their collection
@@ -32,13 +34,14 @@ def target_of(shape: Shape, settings: Settings, cache: Path | None = None) -> Ta
     return MeshTarget(shape, settings, cache) if isinstance(shape, Mesh) else DrawingTarget(shape, settings)
 
 
-def fidelity(replica: Shape, reference: Shape, settings: Settings | None = None) -> Verdict:
+def fidelity(replica: Any, reference: Any, settings: Settings | None = None) -> Verdict:
     """How likely a person calls a replica the same as its reference, and where the two differ.
 
-    Both are compared as they stand, after normalisation: neither is turned or mirrored. settings: the cuts of the
-    grades, and the judge that grades. Raises TypeError for a mesh with a drawing, ValueError for a shape that no
-    picture shows.
+    Both are what a procedure may return, and are compared as they stand, after normalisation: neither is turned or
+    mirrored. settings: the cuts of the grades, and the judge that grades. Raises TypeError for a mesh with a drawing,
+    ValueError for a shape that no picture shows.
     """
+    replica, reference = as_shape(replica), as_shape(reference)
     if isinstance(replica, Mesh) != isinstance(reference, Mesh):
         raise TypeError("a mesh and a drawing cannot be compared")
     target = target_of(reference, settings or Settings())
@@ -73,6 +76,18 @@ class Judge:
     def goal(self) -> float:
         """The cost up to which a replica is surely compatible, see ``Target``."""
         return self.targets[0].goal
+
+    def standings(self, builds: Sequence[Build], rows: Rows | None = None) -> list[Standing]:
+        """How near each build is to its reference, those of ``rows`` or all, by the judge of the settings."""
+        near = zip(*self.nearest(builds, rows), strict=True)
+        if self.settings.judge == "paper":
+            least = self.metric.threshold
+            return [Standing(float(apart), int(field), math.nan, float(apart) / least) for apart, field in near]
+        values = [each.value for each in self.evidence(builds, rows)]
+        return [
+            Standing(float(distance), int(field), value, apart_of(value, self.settings))
+            for (distance, field), value in zip(near, values, strict=True)
+        ]
 
     def distances(self, builds: Sequence[Build], rows: Rows | None = None) -> Floats:
         """The distance of each build to its reference, those of ``rows`` or all: (N,); NaN where there is none."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -40,6 +41,40 @@ class Verdict:
     missing: tuple[Region, ...]  # of the reference, without a counterpart; the largest first
     surplus: tuple[Region, ...]  # of the replica, without a counterpart; the largest first
     measures: Mapping[str, float]  # by name, see ``Measures``; NaN for what cannot be measured
+
+
+@dataclass(frozen=True)
+class Standing:
+    """How near a replica is to its reference."""
+
+    distance: float  # by the paper's measure; NaN where it cannot be measured
+    field: int  # the light field in which the two differ least
+    fidelity: float  # NaN by the paper's judge
+    apart: float  # from a perfect replica: at most 1 is replicated; NaN where it cannot be measured
+
+
+_PERFECT = 0.99  # a fidelity that is as good as 1
+_LEAST = 1e-30  # of a fidelity, so that its odds are finite
+_BEYOND = 0.27
+"""How much what lies beyond the cut counts: tables 0.8 and 1.4 high, of a fidelity of 1e-16, lie as far apart as by
+the light field, 1.6 thresholds."""
+
+
+def apart_of(value: float, settings: Judging) -> float:
+    """How far a fidelity is from a perfect one: 0 from 0.99 on, 1 at the cut of the replicated, and more beyond it.
+
+    It goes by log odds, whose logarithm counts beyond the cut: they tell which of two poor replicas is the better one.
+    """
+    perfect, cut = max(_PERFECT, (1.0 + settings.replicated) / 2.0), settings.replicated
+    if math.isnan(value) or value >= perfect:
+        return 0.0 if value >= perfect else math.nan
+    away = (_log_odds(perfect) - _log_odds(value)) / (_log_odds(perfect) - _log_odds(cut))
+    return away if away <= 1.0 else 1.0 + _BEYOND * math.log(away)
+
+
+def _log_odds(value: float) -> float:
+    value = max(value, _LEAST)
+    return math.log(value / (1.0 - value))
 
 
 def grade_of(value: float, settings: Judging) -> Grade:

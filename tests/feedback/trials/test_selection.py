@@ -44,11 +44,15 @@ def longer(name, high, rows):
 
 
 def tall(post, heights):
-    judge = Judge.of(sw.Collection.of({f"{h}": box((0.5, h, 0.1)).mesh() for h in heights}), sw.Settings(workers=1))
+    judge = Judge.of(
+        sw.Collection.of({f"{h}": box((0.5, h, 0.1)).mesh() for h in heights}), sw.Settings(workers=1, judge="paper")
+    )
     start = {"height": 1.0, "depth": 0.1}
     with Workers(post, 1) as crew:
         before = judge.distances(crew.build([start] * len(heights)))
-    replicas = [Replica(row, start, post(**start), distance) for row, distance in enumerate(before)]
+    replicas = [
+        Replica(row, start, post(**start), distance, apart=distance / 0.18) for row, distance in enumerate(before)
+    ]
     return [Misfit(replica, replica, replica, goal=judge.goal) for replica in replicas], judge
 
 
@@ -60,7 +64,7 @@ def test_what_brings_something_is_shown_with_the_ranges_that_are_needed(post):
     shown = selected(post, ideas, misfits, judge, known, 400, 3)
     assert [each.proposal.title for each in shown] == ["A wider Range of height"]
     (height,) = shown
-    assert height.outcome.compatible == (0, 1) and 2.0 < height.ranges["height"][1] < 4.0
+    assert height.outcome.replicated == (0, 1) and 2.0 < height.ranges["height"][1] < 4.0
     assert height.source == height.proposal.write(height.ranges)
     again = selected(post, ideas, misfits, judge, known, 400, 3)
     assert again[0].outcome.parameters == height.outcome.parameters and again[0].source == height.source
@@ -69,10 +73,10 @@ def test_what_brings_something_is_shown_with_the_ranges_that_are_needed(post):
 def test_parameters_known_with_longer_ranges_need_no_search(post):
     misfits, judge = tall(post, (3.0,))
     (plain,) = misfits
-    outside = Replica(0, {"height": 3.0, "depth": 0.1}, box((0.5, 3.0, 0.1)).mesh(), 0.0)
+    outside = Replica(0, {"height": 3.0, "depth": 0.1}, box((0.5, 3.0, 0.1)).mesh(), 0.0, apart=0.0)
     known = Misfit(plain.covering, plain.nearest, outside, goal=judge.goal)
     (shown,) = selected(post, [longer("height", 4.0, (0,))], [known], judge, [], 1, 3)
-    assert shown.outcome.parameters[0] == {"height": 3.0, "depth": 0.1} and shown.outcome.distance(0) < 0.02
+    assert shown.outcome.parameters[0] == {"height": 3.0, "depth": 0.1} and shown.outcome.apart(0) < 0.1
     assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, [], 1, 3) == []
 
 
@@ -83,8 +87,8 @@ def test_a_change_of_what_was_there_is_not_shown(post):
     assert selected(post, [longer("breadth", 3.0, (0,))], misfits, judge, [], 400, 3) == []
 
 
-def test_the_way_to_a_compatible_shape():
-    near, far = (Replica(0, {}, box(1.0).mesh(), distance) for distance in (150.0 / 15_000, np.inf))
-    misfit = Misfit(near, near, near, goal=100.0)
-    assert [misfit.way(cost) for cost in (160.0, 150.0, 125.0, 100.0, 40.0)] == [0.0, 0.0, 0.5, 1.0, 1.0]
-    assert Misfit(far, far, far, goal=100.0).way(150.0) == 0.5
+def test_the_way_to_a_replicated_shape():
+    near, far = (Replica(0, {}, box(1.0).mesh(), 0.3, apart=apart) for apart in (1.5, np.inf))
+    misfit = Misfit(near, near, near)
+    assert [misfit.way(apart) for apart in (1.6, 1.5, 1.25, 1.0, 0.4)] == [0.0, 0.0, 0.5, 1.0, 1.0]
+    assert Misfit(far, far, far).way(1.5) == 0.5

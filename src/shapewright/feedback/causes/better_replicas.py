@@ -8,8 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from shapewright.building import Build, Workers
 from shapewright.feedback.case import Case, Replica
 from shapewright.feedback.surfaces.placement import Overlay
@@ -37,7 +35,7 @@ RANDOM = 256
 EVALUATIONS = 3_600
 """Shapes built for all references together, about: with 6,000 the causes were no better (docs/benchmarks.md)."""
 ENOUGH = 0.9
-"""Of the threshold. In the pose that both share, distances are upper bounds of what is judged."""
+"""Of the goal. In the pose that both share, distances are upper bounds of what is judged."""
 _UNSURE = 0.3  # probability of another class than the known one, where no predictor is known
 _NEAREST_SHARE, _COVERING_SHARE = 0.45, 0.55  # of EVALUATIONS
 
@@ -46,12 +44,8 @@ def measured(asked: Sequence[tuple[int, Parameters]], crew: Workers, judge: Judg
     """Build and measure parameters, each for the reference of a row; None where no shape can be built or measured."""
     builds = crew.build([parameters for _, parameters in asked])
     rows = [row for row, _ in asked]
-    return [
-        Replica(row, build.parameters, build.shape, float(distance), int(field))
-        if build.shape is not None and not np.isnan(distance)
-        else None
-        for row, build, distance, field in zip(rows, builds, *judge.nearest(builds, rows), strict=True)
-    ]
+    standings = judge.standings(builds, rows)
+    return [Replica.of(row, build, standing) for row, build, standing in zip(rows, builds, standings, strict=True)]
 
 
 def with_fields(replicas: Sequence[Replica], judge: Judge) -> list[Replica]:
@@ -100,16 +94,16 @@ def covering_replicas(
 
 def with_choices_kept(cases: Sequence[Case], crew: Workers, judge: Judge) -> list[Replica]:
     """The nearest replicas, with the choices of the iteration's where these do as well with the new numbers."""
-    space, threshold = crew.procedure.space, judge.settings.threshold
+    space = crew.procedure.space
     choices = [parameter.name for parameter in space if not isinstance(parameter, Scalar)]
     best, asked = [case.nearest for case in cases], {}
     for i, case in enumerate(cases):
         old, new = case.replica, case.nearest
         kept = space.canonical({**new.parameters, **{name: old.parameters[name] for name in choices}})
-        if new.distance <= threshold and kept != new.parameters:
+        if new.apart <= 1.0 and kept != new.parameters:
             asked[i] = (case.row, kept)
     for i, replica in zip(asked, measured(list(asked.values()), crew, judge), strict=True):
-        if replica and replica.distance <= threshold:
+        if replica and replica.apart <= 1.0:
             best[i] = replica
     return best
 
@@ -120,13 +114,13 @@ def nearer(known: Sequence[Replica], vectors: Sequence[Parameters], crew: Worker
     moved = [i for i, (old, vector) in enumerate(zip(known, vectors, strict=True)) if vector != old.parameters]
     fresh = measured([(known[i].row, vectors[i]) for i in moved], crew, judge)
     for i, replica in zip(moved, fresh, strict=True):
-        if replica and replica.distance < best[i].distance:
+        if replica and replica.apart < best[i].apart:
             best[i] = replica
     return best
 
 
 def as_near_as(share: float, known: Sequence[Replica], judge: Judge) -> Criterion:
-    """The cost by the light fields of known replicas, down to a share of the threshold."""
+    """The cost in the light fields of known replicas, down to a share of the judge's goal."""
     measure = judge.measure([replica.row for replica in known], [replica.field for replica in known])
     return Criterion(measure, enough=share * judge.goal)
 

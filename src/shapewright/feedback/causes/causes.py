@@ -40,7 +40,7 @@ def causes(
     space, settings = crew.procedure.space, judge.settings
     misfits = _searched(misfits, predictor, crew, judge, stages)
     misfits = _compared(misfits, judge)
-    misfits = [replace(case, causes=diagnosed(space, settings.threshold, case)) for case in misfits]
+    misfits = [replace(case, causes=diagnosed(space, case)) for case in misfits]
     lacking = [case for case in misfits if case.causes[0].kind == "missing part"]
     leans = leaning(crew, [(case.covering.parameters, case.overlay) for case in lacking], settings.workers)
     leaning_ones = [or_leaning(case, lean) for case, lean in zip(lacking, leans, strict=True)]
@@ -55,24 +55,24 @@ def _searched(
     misfits: list[Case], predictor: Predictor | None, crew: Workers, judge: Judge, stages: Stages
 ) -> list[Case]:
     """The misfits with the nearest replica within the space and outside, and the one that covers most."""
-    space, threshold, threads = crew.procedure.space, judge.settings.threshold, judge.settings.workers
+    space, threads = crew.procedure.space, judge.settings.workers
     known = with_fields([case.replica for case in misfits], judge)
     overlays = in_threads(lambda case: Overlay(case.residuals.reference, case.replica.mesh), misfits, threads)
     prediction = prediction_of(space, predictor, known, [case.reference for case in misfits])
     covering = covering_replicas(known, overlays, prediction, crew, judge)
     misfits = [
-        replace(case, replica=old, overlay=overlay, covering=new, nearest=min(old, new, key=attrgetter("distance")))
+        replace(case, replica=old, overlay=overlay, covering=new, nearest=min(old, new, key=attrgetter("apart")))
         for case, old, overlay, new in zip(misfits, known, overlays, covering, strict=True)
     ]
     stages.step(1, 4)
-    unsolved = [i for i, case in enumerate(misfits) if case.nearest.distance > threshold]
+    unsolved = [i for i, case in enumerate(misfits) if case.nearest.apart > 1.0]
     some = [misfits[i] for i in unsolved]
     nearest = nearest_replicas([case.nearest for case in some], prediction.take(unsolved), crew, judge)
     misfits = updated(misfits, [replace(case, nearest=new) for case, new in zip(some, nearest, strict=True)])
     nearest = with_choices_kept(misfits, crew, judge)
     misfits = [replace(case, nearest=new, outside=new) for case, new in zip(misfits, nearest, strict=True)]
     stages.step(2, 4)
-    some = [case for case in misfits if case.nearest.distance > threshold]
+    some = [case for case in misfits if case.nearest.apart > 1.0]
     outside = replicas_outside([case.nearest for case in some], crew, judge)
     misfits = updated(misfits, [replace(case, outside=new) for case, new in zip(some, outside, strict=True)])
     stages.step(3, 4)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -11,32 +12,32 @@ from shapewright.feedback.causes.structure import part_causes
 from shapewright.parameters import ParameterSpace, Scalar
 
 # Where nothing else is said, chosen on seed 0 of benchmarks/causes.py.
-_HELPS = 0.2  # share of the distance that a longer Range has to take away to be a cause when it does not suffice
-_BARELY = 0.8  # of the threshold
+_HELPS = 0.2  # share of what lies apart that a longer Range has to take away to be a cause when it does not suffice
+_BARELY = 0.8  # of what a replicated shape may be apart
 _LACKING = 0.01  # share of the surface times distance, of a missing or surplus part that is beyond doubt
 _TOGETHER = 0.75  # of what lies apart within the space
-_CLOSE = 0.5  # of the threshold: nearer than shapes come that make up for something else
+_CLOSE = 0.5  # of the same: nearer than shapes come that make up for something else
 _LEANS = 0.67  # of what lies apart, that is left at most where a part leans (docs/benchmarks.md, seeds 1 and 2)
-_FAR = 1.25  # thresholds: an outlier that comes nearer than this is only an unusual shape
+_FAR = 1.25  # times the same: an outlier that comes nearer than this is only an unusual shape
 
 
-def diagnosed(space: ParameterSpace, threshold: float, case: Case) -> tuple[Cause, ...]:
+def diagnosed(space: ParameterSpace, case: Case) -> tuple[Cause, ...]:
     """The causes of one case that is not replicated, the chief one first.
 
-    A search that ends below the threshold is no proof that nothing is missing: shapes grow fat to make up for parts
+    A search that ends with a replicated shape is no proof that nothing is missing: shapes grow fat to make up for parts
     that they lack. So the surfaces have a say: other parameters or longer Ranges are the chief cause only when they
     bring the shapes very close, or the surfaces together.
     """
     parts = part_causes(case.covering_residuals)
     lacking = parts[0].kind != "wrong form" and parts[0].weight > _LACKING
-    if case.nearest.distance <= threshold:
+    if case.nearest.apart <= 1.0:
         better = overlooked(space, case.replica, case.nearest)
-        barely = case.nearest.distance > _BARELY * threshold
+        barely = case.nearest.apart > _BARELY
         return (*parts, better) if barely and lacking else (better,)
-    wishes = too_short(space, threshold, case.nearest, case.outside)
-    if wishes and case.outside.distance <= threshold and _together(case, threshold):
+    wishes = too_short(space, case.nearest, case.outside)
+    if wishes and case.outside.apart <= 1.0 and _together(case):
         return wishes
-    if case.isolation is not None and case.nearest.distance > _FAR * threshold:
+    if case.isolation is not None and case.nearest.apart > _FAR:
         away = f"the nearest are {case.isolation:.2f} away; perhaps it does not belong here"
         text = f"unlike all other references: {away}"
         return (Cause("not such a shape", text, {"isolation": case.isolation}), *parts, *wishes)
@@ -55,9 +56,9 @@ def or_leaning(case: Case, lean: Leaning | None) -> Case:
     return replace(case, causes=(_leans(lean, apart), *others))
 
 
-def _together(case: Case, threshold: float) -> bool:
+def _together(case: Case) -> bool:
     """Whether longer Ranges bring the shapes very close, or the surfaces together."""
-    if case.outside.distance <= _CLOSE * threshold:
+    if case.outside.apart <= _CLOSE:
         return True
     return case.overlay(case.outside.mesh) < _TOGETHER * case.overlay(case.covering.mesh)
 
@@ -85,23 +86,25 @@ def overlooked(space: ParameterSpace, before: Replica, better: Replica, measure:
         "changed": [{"parameter": name, "was": was, "is": value} for name, was, value in changed],
     }
     fell = f"the {measure} falls from {before.distance:.3f} to {better.distance:.3f}"
+    if not math.isnan(better.fidelity):
+        fell = f"the fidelity rises from {before.fidelity:.2f} to {better.fidelity:.2f}"
     if changed:
         how = ", ".join(f"{name} is {_word(value)}, not {_word(was)}" for name, was, value in changed)
         return Cause("wrong choice", f"{how}: {fell}", evidence)
     return Cause("badly predicted", f"a longer search finds better parameters: {fell}", evidence)
 
 
-def too_short(
-    space: ParameterSpace, threshold: float, inside: Replica, outside: Replica, measure: str = "distance"
-) -> tuple[Cause, ...]:
+def too_short(space: ParameterSpace, inside: Replica, outside: Replica, measure: str = "distance") -> tuple[Cause, ...]:
     """The cause where longer Ranges help, none where they do not. measure: what falls, in words."""
     excesses = space.outside(outside.parameters)
-    enough = outside.distance <= threshold
-    if not excesses or not (enough or outside.distance < (1.0 - _HELPS) * inside.distance):
+    enough = outside.apart <= 1.0
+    if not excesses or not (enough or outside.apart < (1.0 - _HELPS) * inside.apart):
         return ()
     verbs = {"low": "starts", "high": "ends"}
     how = ", ".join(f"{e.parameter} at {e.value:.3g}, Range {verbs[e.side]} at {e.end:.4g}" for e in excesses)
     after = f"the {measure} would be {outside.distance:.2f} instead of {inside.distance:.2f}"
+    if not math.isnan(outside.fidelity):
+        after = f"the fidelity would be {outside.fidelity:.2f} instead of {inside.fidelity:.2f}"
     evidence = {
         "wishes": [{"parameter": e.parameter, "value": e.value, "end": e.end, "side": e.side} for e in excesses],
         "parameters": outside.parameters,

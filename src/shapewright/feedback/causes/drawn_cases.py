@@ -17,6 +17,7 @@ from shapewright.feedback.causes.structure import part_causes
 from shapewright.feedback.surfaces.areas import areas
 from shapewright.judging.drawing_target import DrawingTarget
 from shapewright.judging.judge import Judge
+from shapewright.judging.paper import Metric
 from shapewright.parameters import ParameterSpace
 from shapewright.prediction.predictor import Predictor
 from shapewright.progress import Stages
@@ -34,6 +35,10 @@ _APART = "share that lies apart"
 class _InPlace(DrawingTarget):
     """A drawing whose distance to a replica is the share of the area of both that lies apart, 0 to 1."""
 
+    @property
+    def metric(self) -> Metric:
+        return Metric(_APART, SAME, 1.0, f"{_APART} at most {SAME:g}")
+
     def nearest(self, replica: Shape | None) -> tuple[float, int]:
         if not (self.visible and isinstance(replica, Drawing)):
             return np.nan, 0
@@ -44,7 +49,7 @@ def in_place(judge: Judge) -> Judge:
     """A judge of the same drawings by the share of the area of both that lies apart; up to SAME they are the same."""
     shapes = [reference.shape for reference in judge.references]
     targets = tuple(_InPlace(shape, judge.settings) for shape in shapes if isinstance(shape, Drawing))
-    return Judge(judge.references, targets, replace(judge.settings, threshold=SAME))
+    return Judge(judge.references, targets, replace(judge.settings, judge="paper", threshold=SAME))
 
 
 def drawn_causes(
@@ -86,7 +91,7 @@ def _diagnosed(space: ParameterSpace, case: DrawnCase) -> tuple[Cause, ...]:
     """The causes of a drawing that is not replicated, the chief one first."""
     if case.nearest.distance <= SAME < case.replica.distance:
         return (overlooked(space, case.replica, case.nearest, _APART),)
-    wishes = too_short(space, SAME, case.nearest, case.outside, _APART)
+    wishes = too_short(space, case.nearest, case.outside, _APART)
     if wishes and case.outside.distance <= SAME:
         return wishes
     return (*part_causes(case.covering_residuals), *wishes)

@@ -32,7 +32,7 @@ def replicas_outside(known: Sequence[Replica], crew: Workers, judge: Judge) -> l
 
     A parameter lies outside its Range only where that pays.
     """
-    space, threshold = crew.procedure.space, judge.settings.threshold
+    space = crew.procedure.space
     best, ends = list(known), [space.pressed(replica.parameters) for replica in known]
     todo = [i for i, free in enumerate(ends) if free]
     for _ in range(_TURNS):
@@ -43,7 +43,7 @@ def replicas_outside(known: Sequence[Replica], crew: Workers, judge: Judge) -> l
         for i, replica in zip(todo, wider, strict=True):
             best[i] = replica
             free = ends[i] | space.pressed(replica.parameters)
-            if free != ends[i] and replica.distance > threshold:
+            if free != ends[i] and replica.apart > 1.0:
                 again.append(i)
             ends[i] = free
         todo = again
@@ -67,16 +67,16 @@ def _searched(known: Sequence[Replica], ends: Sequence[set[End]], crew: Workers,
 
 def _pulled_back(known: Sequence[Replica], best: Sequence[Replica], crew: Workers, judge: Judge) -> list[Replica]:
     """The same, with every parameter inside its Range again whose longer Range brings next to nothing."""
-    space, threshold, best = crew.procedure.space, judge.settings.threshold, list(best)
+    space, best = crew.procedure.space, list(best)
 
-    def as_good(distance: float, wide: float, before: float) -> bool:
-        return distance <= threshold or (wide > threshold and distance - wide <= _LEVEL * (before - wide))
+    def as_good(apart: float, wide: float, before: float) -> bool:
+        return apart <= 1.0 or (wide > 1.0 and apart - wide <= _LEVEL * (before - wide))
 
     for name in [name for name in space.names if any(_outside(space, replica, name) for replica in best)]:
         some = [i for i, replica in enumerate(best) if _outside(space, replica, name)]
         asked = [(best[i].row, space.clipped(best[i].parameters, [name])) for i in some]
         for i, replica in zip(some, measured(asked, crew, judge), strict=True):
-            if replica and as_good(replica.distance, best[i].distance, known[i].distance):
+            if replica and as_good(replica.apart, best[i].apart, known[i].apart):
                 best[i] = replica
     return best
 

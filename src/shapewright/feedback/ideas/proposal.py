@@ -18,7 +18,7 @@ Interval = tuple[float, float, float]
 """Low, high and default of a parameter."""
 Ranges = Mapping[str, Interval]
 """By the name of the parameter."""
-_LEAST_WAY = 0.05  # of the threshold: nearer shapes are as good as compatible
+_LEAST_WAY = 0.05  # nearer shapes are as good as replicated
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,10 +46,10 @@ class Misfit:
         """Into how many pieces its replica falls."""
         return separate(self.replica)
 
-    def way(self, cost: float) -> float:
-        """How much of the way from the nearest replica to a compatible one another has come, 0 to 1."""
-        way = min(max(self.nearest.distance * RAW_SCALE / self.goal - 1.0, _LEAST_WAY), 1.0)
-        return min(max((1.0 + way - cost / self.goal) / way, 0.0), 1.0)
+    def way(self, apart: float) -> float:
+        """How much of the way from the nearest replica to a replicated one another has come, 0 to 1."""
+        way = min(max(self.nearest.apart - 1.0, _LEAST_WAY), 1.0)
+        return min(max((1.0 + way - apart) / way, 0.0), 1.0)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import tempfile
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -9,13 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
-from shapewright.building import Workers
+from shapewright.building import Build, Workers
 from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.comparison.surfaces import area
 from shapewright.feedback.case import Replica
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.trials.outcome import Outcome
 from shapewright.judging.judge import Judge
+from shapewright.judging.verdict import apart_of
 from shapewright.parameters import Parameters, ParameterSpace, Prediction
 from shapewright.procedures import load_procedure
 from shapewright.search.budgets import Budget
@@ -33,9 +35,9 @@ LONG = Budget((Scan(2), Probe(1), *(Step(1, scatter=6),) * 9), patience=3)
 OTHER_CHOICES = Budget((Scan(6), Probe(2), *(Step(1, scatter=6),) * 6), patience=3)
 """From several combinations of choices. All four were chosen on seed 0 of ``benchmarks/suggestions.py rules``."""
 ENOUGH = 0.88
-"""Of the threshold, where a search ends: its costs are upper bounds of what is judged."""
+"""Of the goal, where a search ends: its costs are upper bounds of what is judged."""
 _UNLIKE = 0.1  # probability of other choices than those at the start
-_LENDERS = 3  # compatible references with different choices, the nearest of which others borrow from
+_LENDERS = 3  # replicated references with different choices, the nearest of which others borrow from
 _SAME = 1e-6  # relative difference of bounds and areas up to which two shapes are one
 
 
@@ -58,8 +60,8 @@ def nearest_starts(
 ) -> Outcome:
     """The nearest of some candidates for each reference (by row), moved into the Ranges and built without a search.
 
-    Their distances are upper bounds of what is judged. Of several candidates, the nearest that falls into no more
-    pieces than it may. References of which nothing can be built are left out.
+    Their distances are upper bounds; by the paper's judge so is what lies apart. Of several candidates, the nearest
+    that falls into no more pieces than it may. References of which nothing can be built are left out.
     """
     space = crew.procedure.space
     asked = [(row, space.carry(values)) for row, several in candidates.items() for values in several]
@@ -67,16 +69,22 @@ def nearest_starts(
     pairs = zip(asked, builds, strict=True)
     made = [(row, build.parameters, build.shape) for (row, _), build in pairs if isinstance(build.shape, Mesh)]
     costs = judge.search_costs([(row, mesh) for row, _, mesh in made])
+    values = [math.nan] * len(made)
+    if judge.settings.judge == "fidelity":
+        found = judge.evidence([Build(parameters, mesh) for _, parameters, mesh in made], [row for row, _, _ in made])
+        values = [each.value for each in found]
     several: dict[int, list[Replica]] = {}
-    for cost, (row, values, mesh) in zip(costs, made, strict=True):
+    for cost, value, (row, parameters, mesh) in zip(costs, values, made, strict=True):
         if np.isfinite(cost):
-            several.setdefault(row, []).append(Replica(row, values, mesh, cost / RAW_SCALE))
+            away = cost / judge.goal if math.isnan(value) else apart_of(value, judge.settings)
+            replica = Replica(row, parameters, mesh, cost / RAW_SCALE, apart=away, fidelity=value)
+            several.setdefault(row, []).append(replica)
     starts = []
     for row, choices in several.items():
-        choices.sort(key=lambda start: start.distance)
+        choices.sort(key=lambda start: start.apart)
         whole = (start for start in choices if separate(start.mesh) <= pieces[row]) if len(choices) > 1 else ()
         starts.append(next(iter(whole), choices[0]))
-    return Outcome.of(starts, judge.settings.threshold)
+    return Outcome.of(starts)
 
 
 def outcome_of(
@@ -92,8 +100,9 @@ def outcome_of(
     """Search for each reference (by row) from the parameters given, and judge the replicas.
 
     budget: None to judge the parameters themselves, moved into the procedure's Ranges. turn: number of the search for
-    the same references, for other random points. enough: of the threshold, at which a search ends. only: names of the
-    scalars that it may change, by default all. sure: the name of a choice that it keeps wherever it tries others.
+    the same references, for other random points. enough: of the goal, at which a search ends.
+    only: names of the scalars that it may change, by default all. sure: the name of a choice that it keeps wherever it
+    tries others.
     """
     space, rows = crew.procedure.space, list(starts)
     vectors = [space.carry(values) for values in starts.values()]
@@ -107,30 +116,27 @@ def outcome_of(
         criterion = Criterion(judge.measure(rows), enough=enough * judge.goal)
         vectors = refine(begin, criterion, crew, budget, judge.settings.seed + turn)
     builds = crew.build(vectors)
-    replicas = [
-        Replica(row, build.parameters, build.shape, float(distance))
-        for row, build, distance in zip(rows, builds, judge.distances(builds, rows), strict=True)
-        if isinstance(build.shape, Mesh) and np.isfinite(distance)
-    ]
-    return Outcome.of(replicas, judge.settings.threshold)
+    standings = judge.standings(builds, rows)
+    replicas = [Replica.of(row, build, standing) for row, build, standing in zip(rows, builds, standings, strict=True)]
+    return Outcome.of(replica for replica in replicas if replica)
 
 
 def with_borrowed_choices(
     space: ParameterSpace, outcome: Outcome, starts: Mapping[int, Parameters]
 ) -> dict[int, list[Parameters]]:
-    """Candidates for the references of ``starts`` that are not compatible, with the choices with which others are.
+    """Candidates for the references of ``starts`` that are not replicated, with the choices with which others are.
 
     A shape that lacks a part may be nearest with choices to which the new part does not belong. Candidates are
     another's parameters, its choices with the reference's own numbers, and one choice of its alone.
     """
     lenders: dict[tuple[object, ...], Parameters] = {}
-    for row in sorted(outcome.compatible, key=outcome.distance):
+    for row in sorted(outcome.replicated, key=outcome.apart):
         parameters = outcome.replicas[row].parameters
         lenders.setdefault(tuple(parameters[p.name] for p in space if p.classes), parameters)
     candidates: dict[int, list[Parameters]] = {}
     for row in starts:
         own, known = space.carry(starts[row]), [space.carry(starts[row])]
-        for lender in list(lenders.values())[:_LENDERS] if row not in outcome.compatible else ():
+        for lender in list(lenders.values())[:_LENDERS] if row not in outcome.replicated else ():
             for values in _mixed(space, own, lender):
                 if (new := space.canonical(values)) not in known:
                     known.append(new)

@@ -12,7 +12,7 @@ from shapewright.feedback.parts.attachment import separate
 from shapewright.parameters import Parameters
 
 PROMISING = 1.7
-"""Thresholds: a shape that is further away before any search is hardly ever compatible after it."""
+"""A shape that is further apart, see ``Replica``, before any search is hardly ever replicated after it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,22 +21,21 @@ class Outcome:
 
     replicas: Mapping[int, Replica]  # by the row of their reference
     counted: tuple[int, ...]  # rows of the replicas that count. From the others a search may begin all the same.
-    threshold: float  # the distance up to which a replica is compatible
 
     @classmethod
-    def of(cls, replicas: Iterable[Replica], threshold: float) -> Outcome:
+    def of(cls, replicas: Iterable[Replica]) -> Outcome:
         """All of them count."""
         by_row = {replica.row: replica for replica in replicas}
-        return cls(by_row, tuple(by_row), threshold)
+        return cls(by_row, tuple(by_row))
 
     @property
-    def compatible(self) -> tuple[int, ...]:
+    def replicated(self) -> tuple[int, ...]:
         """Rows of the references that are replicated."""
-        return tuple(row for row in self.counted if self.replicas[row].distance <= self.threshold)
+        return tuple(row for row in self.counted if self.replicas[row].apart <= 1.0)
 
-    def distance(self, row: int) -> float:
+    def apart(self, row: int) -> float:
         """Infinite where no replica counts."""
-        return self.replicas[row].distance if row in self.counted else np.inf
+        return self.replicas[row].apart if row in self.counted else np.inf
 
     @property
     def parameters(self) -> dict[int, Parameters]:
@@ -52,8 +51,7 @@ class Outcome:
 
         pieces: how many those are, by row. Whether far replicas float does not matter.
         """
-        far = PROMISING * self.threshold
-        return self._counting(lambda r: r.distance > far or separate(r.mesh) <= pieces[r.row])
+        return self._counting(lambda r: r.apart > PROMISING or separate(r.mesh) <= pieces[r.row])
 
     def using(self, uses: Callable[[Parameters], bool]) -> Outcome:
         """Only replicas count that make use of the change: others a longer search would have found without it."""
@@ -61,7 +59,7 @@ class Outcome:
 
     def joined(self, other: Outcome) -> Outcome:
         """The nearer of both replicas for each reference."""
-        nearer = {row: other.replicas[row] for row in other.counted if other.distance(row) < self.distance(row)}
+        nearer = {row: other.replicas[row] for row in other.counted if other.apart(row) < self.apart(row)}
         counted = tuple(dict.fromkeys([*self.counted, *nearer]))
         return replace(self, replicas={**self.replicas, **nearer}, counted=counted)
 

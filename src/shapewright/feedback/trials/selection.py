@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.needed_ranges import narrowed
 from shapewright.feedback.ideas.proposal import Misfit, Proposal, Ranges
@@ -45,8 +44,8 @@ _CONFIRMED_SHARE = 0.35  # of what is left, for each that is tried on all misfit
 _BORROWED = 0.15  # of these, for the choices that suit others
 _LITTLE = 0.05  # of the most that is promised, that is not worth a trial
 _LEAST = 24  # evaluations that a search is worth beginning with
-_FAR = 3.0  # thresholds: what lies further away is not searched for with longer Ranges, which may change much
-_CLOSE = 0.4  # of the threshold: how near longer Ranges should come, so that they are long enough
+_FAR = 3.0  # what lies further apart is not searched for with longer Ranges, which may change much
+_CLOSE = 0.4  # how little longer Ranges should leave apart, so that they are long enough
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,14 +59,14 @@ class Change:
 
     @property
     def value(self) -> float:
-        """The references that become compatible; a close replica counts half as much again as one at the threshold."""
+        """The references that become replicated; a perfect replica counts half as much again as one that just is."""
         outcome = self.outcome
-        return sum(1.5 - 0.5 * outcome.distance(row) / outcome.threshold for row in outcome.compatible)
+        return sum(1.5 - 0.5 * outcome.apart(row) for row in outcome.replicated)
 
 
 @dataclass(frozen=True, eq=False)
 class _Prospect:
-    """A proposal, where searches for some misfits may begin, and how many references it may make compatible."""
+    """A proposal, where searches for some misfits may begin, and how many references it may make replicated."""
 
     proposal: Proposal
     starts: Outcome
@@ -93,7 +92,7 @@ def selected(
     evaluations: int,
     limit: int,
 ) -> list[Change]:
-    """The proposals that make references compatible, the largest gain first, simpler first on a tie.
+    """The proposals that make references replicated, the largest gain first, simpler first on a tie.
 
     ideas: the likeliest first. known: replicas that no change may alter. evaluations: shapes built for searches, about.
     limit: of the number of changes. None only repeats part of what another does.
@@ -115,8 +114,8 @@ def selected(
             allowed, idea = int(_CONFIRMED_SHARE * left), prospect.proposal
             left -= allowed
             outcome = _outcome_for_all(trials, prospect, allowed)
-            if outcome.compatible:
-                values = [outcome.parameters[row] for row in outcome.compatible]
+            if outcome.replicated:
+                values = [outcome.parameters[row] for row in outcome.replicated]
                 changes.append(Change(idea, narrowed(idea, procedure.space, values), "", outcome))
         return _worth_showing(trials, changes, limit)
 
@@ -142,11 +141,11 @@ def _spread(misfits: Sequence[Misfit], count: int) -> list[Misfit]:
 
 
 def _way(misfit: Misfit, starts: Outcome) -> float:
-    return misfit.way(starts.distance(misfit.row) * RAW_SCALE)
+    return misfit.way(starts.apart(misfit.row))
 
 
 def _promise(idea: Proposal, misfits: Sequence[Misfit], ways: Mapping[int, float]) -> float:
-    """How many references the proposal may make compatible: those that were tried stand for the others."""
+    """How many references the proposal may make replicated: those that were tried stand for the others."""
     promise = 0.0
     for own in (True, False):
         group = [m.row for m in misfits if (m.row in idea.starts) == own]
@@ -160,7 +159,7 @@ def _briefly_searched(trials: _Trials, prospect: _Prospect, evaluations: int) ->
     idea, starts, misfits = prospect.proposal, prospect.starts, trials.misfits
     ways = {m.row: _way(m, starts) for m in misfits if m.row in starts.replicas}
     budget = BRIEF.within(max(evaluations / _SEARCHED, _LEAST), int(trials.space.scalars.sum()))
-    near = sorted((row for row in ways if row in idea.starts and ways[row] < 1.0), key=starts.distance)
+    near = sorted((row for row in ways if row in idea.starts and ways[row] < 1.0), key=starts.apart)
     near = near[: min(_SEARCHED, evaluations // _LEAST)]
     if not near:
         return prospect
@@ -190,8 +189,8 @@ def _outcome_for_all(trials: _Trials, prospect: _Prospect, evaluations: int) -> 
         if idea.rule is None:
             turns.append((LONG, None, _CLOSE))
         for turn, (budget, only, aim) in enumerate(turns):
-            if idea.rule and len(outcome.compatible) > before:
-                before = len(outcome.compatible)
+            if idea.rule and len(outcome.replicated) > before:
+                before = len(outcome.replicated)
                 borrowed = with_borrowed_choices(space, outcome, outcome.parameters)
                 borrowed = _afforded(borrowed, int(_BORROWED * left))
                 left -= sum(len(several) for several in borrowed.values())
@@ -210,9 +209,9 @@ def _outcome_for_all(trials: _Trials, prospect: _Prospect, evaluations: int) -> 
 
 
 def _worth_a_search(outcome: Outcome, aim: float, far: float) -> list[int]:
-    """Rows of references between two distances, in thresholds: those not compatible first, the nearest first."""
-    rows = [row for row in outcome.counted if aim < outcome.distance(row) / outcome.threshold <= far]
-    return sorted(rows, key=lambda row: (row in outcome.compatible, outcome.distance(row)))
+    """Rows of references so far apart: those not replicated first, the nearest first."""
+    rows = [row for row in outcome.counted if aim < outcome.apart(row) <= far]
+    return sorted(rows, key=lambda row: (row in outcome.replicated, outcome.apart(row)))
 
 
 def _afforded(candidates: Mapping[int, list[Parameters]], most: int) -> dict[int, list[Parameters]]:
@@ -237,26 +236,26 @@ def _ordered(changes: Sequence[Change]) -> list[Change]:
 
 def _repeats(one: Change, other: Change) -> bool:
     same = other.proposal.kind == one.proposal.kind
-    return same and set(one.outcome.compatible) <= set(other.outcome.compatible)
+    return same and set(one.outcome.replicated) <= set(other.outcome.replicated)
 
 
 def _simpler(one: Change, other: Change) -> bool:
     """Whether one makes fewer Ranges longer than the other, for as many references."""
     fewer = bool(one.proposal.ends) and set(one.proposal.ends) < set(other.proposal.ends)
-    return fewer and len(one.outcome.compatible) >= len(other.outcome.compatible)
+    return fewer and len(one.outcome.replicated) >= len(other.outcome.replicated)
 
 
 def _final(trials: _Trials, change: Change) -> Iterator[Change]:
     """The same with its final source, and what that really gives; nothing if that is nothing."""
     idea, judge = change.proposal, trials.judge
-    made = {row: change.outcome.parameters[row] for row in change.outcome.compatible}
+    made = {row: change.outcome.parameters[row] for row in change.outcome.replicated}
     try:
         source = idea.write(change.ranges)
         with turned_to(source, trials.crew) as crew:
             outcome = outcome_of(crew, made, judge, None)
-            lost = {row: made[row] for row in made if row not in outcome.compatible}
+            lost = {row: made[row] for row in made if row not in outcome.replicated}
             outcome = outcome.joined(outcome_of(crew, lost, judge, LONG, sure=idea.flag).using(idea.uses))
     except (EditError, ProcedureError):
         return
-    if outcome.compatible:
+    if outcome.replicated:
         yield replace(change, source=source, outcome=outcome)
