@@ -16,10 +16,11 @@ from typing import Annotated, Any, Literal, NotRequired, Union, get_args, get_or
 
 import msgspec
 
+from shapewright.judging.target import Measures
 from shapewright.settings import Preset, described
-from shapewright.studio.wire import answers, changes, collection, detail, problems, requests, values, work
+from shapewright.studio.wire import answers, changes, collection, detail, judgement, problems, requests, values, work
 
-MODULES = (values, problems, collection, work, detail, answers, changes, requests)
+MODULES = (values, problems, judgement, collection, work, detail, answers, changes, requests)
 _PLAIN: Mapping[Any, str] = {
     str: "string",
     int: "number",
@@ -40,7 +41,7 @@ def modules() -> dict[str, str]:
 
 
 def _settings() -> str:
-    """What the settings that the page shows are, and what they may be."""
+    """What the settings that the page shows are, and what they may be; and what each measure is."""
     lines = [f"\nexport const PRESETS = {json.dumps(get_args(Preset))} as const;", "export const SETTINGS = {"]
     for name, field in described().items():
         if name not in changes.ChosenSettings.__struct_fields__:
@@ -51,7 +52,9 @@ def _settings() -> str:
             known = {"help": field.help, "least": least, "most": field.within.most or field.within.below}
             known["step"] = field.within.step or 1 if field.kind is int else "any"
         lines.append(f"  {name}: {{ {', '.join(f'{key}: {json.dumps(value)}' for key, value in known.items())} }},")
-    return _HEAD.replace("studio/wire/{}", "settings") + "\n".join([*lines, "} as const;", ""])
+    lines += ["} as const;", "export const MEASURES: Record<string, string> = {"]
+    lines += [f"  {name}: {json.dumps(words)}," for name, words in Measures.words().items()]
+    return _HEAD.replace("studio/wire/{}", "settings") + "\n".join([*lines, "};", ""])
 
 
 def _stem(module: types.ModuleType) -> str:
@@ -121,7 +124,8 @@ def _with_defaults(kind: Any) -> set[str]:
 
 def _documented(kind: Any) -> tuple[str, dict[str, str]]:
     """The docstring, and the comment behind each field."""
-    notes = re.findall(r"^    (\w+): .*  # (.*)$", inspect.getsource(kind), re.M)
+    bases = [base for base in reversed(kind.__mro__) if base.__module__.startswith("shapewright.")]
+    notes = re.findall(r"^    (\w+): .*  # (.*)$", "".join(map(inspect.getsource, bases)), re.M)
     return " ".join((inspect.getdoc(kind) or "").split()), {field: f"{note.rstrip('.')}." for field, note in notes}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -17,6 +18,7 @@ import numpy as np
 import pytest
 import trimesh
 
+from shapewright.cli.runs import judged_by_marks
 from shapewright.comparison.gaps import Surface
 from shapewright.procedures import load_procedure
 from shapewright.references import Collection
@@ -102,7 +104,7 @@ def test_live_evaluation(running: Studio) -> None:
     assert set(mesh["label_names"]) == {"top", "legs", "shelf"}
     assert mesh["active"] == ["height", "leg", "shelf", "shelf_height"] and mesh["at_limit"] == []
     assert mesh["units"]["size"] == pytest.approx([1.0, 0.84, 0.7])
-    told = running.next(lambda m: m["type"] == "distance" and m["id"] == 1)
+    told = running.next(lambda m: m["type"] == "verdict" and m["id"] == 1)
     assert told["distance"] is not None and told["colour"].startswith("#")
     sides = [running.next(lambda m: m["type"] == "residuals" and m["id"] == 1) for _ in range(2)]
     assert [side["shape"] for side in sides] == ["replica", "reference"]
@@ -113,7 +115,7 @@ def test_live_evaluation(running: Studio) -> None:
 
 def test_residuals_of_the_same_shape_are_nought(running: Studio) -> None:
     running.say(type="evaluate", id=2, slug="table-1", parameters={"height": 0.6, "shelf": True}, residuals=True)
-    told = running.next(lambda m: m["type"] == "distance" and m["id"] == 2)
+    told = running.next(lambda m: m["type"] == "verdict" and m["id"] == 2)
     assert told["distance"] == 0.0 and told["compatible"]
     side = running.next(lambda m: m["type"] == "residuals" and m["id"] == 2)
     assert np.abs(side["arrays"]["distances"]).max() < 1e-5
@@ -125,9 +127,9 @@ def test_chamfer_is_sampled_with_the_seed_of_the_settings(running: Studio) -> No
     for number, seed in ((3, 5), (4, 0)):
         running.send("PATCH", "/api/settings", {"seed": seed})
         running.say(type="evaluate", id=number, slug="table-1", parameters={"height": 0.8}, residuals=False)
-        told = running.next(lambda m, number=number: m["type"] == "distance" and m["id"] == number)
+        told = running.next(lambda m, number=number: m["type"] == "verdict" and m["id"] == number)
         gaps = Surface(reference, seed).gaps(Surface(replica, seed))
-        assert told["chamfer"] == pytest.approx(gaps.chamfer, abs=1e-9)
+        assert told["measures"]["chamfer"] == pytest.approx(gaps.chamfer, abs=1e-9)
 
 
 def test_of_evaluations_that_wait_only_the_newest_counts(running: Studio) -> None:
@@ -179,6 +181,87 @@ def test_predicted_values_and_their_spread(fitted: Studio) -> None:
     assert 0.3 <= about["predicted"]["height"] <= 1.2 and about["spread"]["height"] > 0.0
     assert sum(about["likelihood"]["shelf"].values()) == pytest.approx(1.0, abs=1e-3)
     assert set(about["parameters"]) == {"height", "leg", "shelf", "shelf_height"}
+
+
+def test_what_is_counted_is_what_the_run_says(fitted: Studio) -> None:
+    collection = fitted.get("/api/state")["collection"]
+    entries = fitted.get_run(collection["run"])["references"]
+    grades = [entry["grade"] for entry in entries]
+    counts = {grade: grades.count(grade) for grade in ("replicated", "close", "different")}
+    counts["compatible"] = sum(entry["compatible"] for entry in entries)
+    assert collection["judge"] == "fidelity" and collection["counts"] == counts
+    assert fitted.get("/api/state")["runs"][-1]["counts"] == counts
+    grouped = {slug for group in collection["groups"] for slug in group["members"]}
+    assert not grouped & {tile["slug"] for tile in collection["tiles"] if tile["grade"] == "replicated"}
+
+
+def test_live_grades_are_those_of_the_fit(fitted: Studio) -> None:
+    collection = fitted.get("/api/state")["collection"]
+    entries = {entry["name"]: entry for entry in fitted.get_run(collection["run"])["references"]}
+    for number, tile in enumerate(collection["tiles"], start=300):
+        entry = entries[tile["name"]]
+        fitted.say(type="evaluate", id=number, slug=tile["slug"], parameters=entry["parameters"])
+        told = fitted.next(lambda m, number=number: m["type"] == "verdict" and m["id"] == number)
+        assert told["grade"] == entry["grade"] and told["compatible"] == entry["compatible"]
+        assert told["colour"] == tile["colour"]
+        for name, value in told["measures"].items():
+            assert value == (None if entry[name] is None else pytest.approx(entry[name], abs=1e-6)), name
+        for side in ("missing", "surplus"):
+            assert [piece["size"] for piece in told[side]] == pytest.approx(
+                [region["size"] for region in entry[side]], abs=1e-4
+            )
+
+
+def test_another_cut_gives_other_grades_at_once_live_ones_too(fitted: Studio) -> None:
+    tiles = fitted.get("/api/state")["collection"]["tiles"]
+    best = max(tiles, key=lambda tile: tile["fidelity"])
+    cut = min(0.99, best["fidelity"] + (1.0 - best["fidelity"]) / 2.0)
+    fitted.send("PATCH", "/api/settings", {"replicated": cut})
+    changed = fitted.get("/api/state")["collection"]
+    assert changed["replicated"] == cut and changed["counts"]["replicated"] == sum(t["fidelity"] >= cut for t in tiles)
+    values = fitted.get(f"/api/references/{best['slug']}")["parameters"]
+    fitted.say(type="evaluate", id=400, slug=best["slug"], parameters=values)
+    told = fitted.next(lambda m: m["type"] == "verdict" and m["id"] == 400)
+    assert told["grade"] == next(t for t in changed["tiles"] if t["slug"] == best["slug"])["grade"]
+    fitted.send("PATCH", "/api/settings", {"replicated": 0.5})
+    assert fitted.get("/api/state")["collection"]["tiles"] == tiles
+
+
+def test_marks_move_the_cut_as_on_the_command_line(fitted: Studio) -> None:
+    tiles = fitted.get("/api/state")["collection"]["tiles"]
+    fitted.send("PUT", "/api/marks", [{"a": tile["slug"], "b": tile["slug"], "same": False} for tile in tiles])
+    state = fitted.get("/api/state")
+    found = judged_by_marks(fitted.folder / "runs" / state["collection"]["run"], "fidelity")
+    now = {name: state["settings"][name] for name in found}
+    assert now == found == {name: state["collection"][name] for name in found}
+    assert state["marking"]["learned"]["count"] == len(tiles) and state["marking"]["asked"] == []
+    fitted.send("PUT", "/api/marks", [])
+    state = fitted.get("/api/state")
+    assert state["marking"]["learned"] is None and state["collection"]["replicated"] == 0.5
+
+
+def test_a_run_of_before_the_judge_opens_by_the_papers(fitted: Studio, tmp_path: Path) -> None:
+    shutil.copytree(fitted.folder / "references", tmp_path / "references")
+    (tmp_path / "procedure.py").write_text(PROCEDURE)
+    run = tmp_path / "runs" / "001"
+    shutil.copytree(fitted.folder / "runs" / fitted.get("/api/state")["collection"]["run"], run)
+    record = json.loads((run / "iteration.json").read_text())
+    for name in ("judge", "worth_marking"):
+        del record[name]
+    for name in ("judge", "replicated", "close", "vif"):
+        del record["settings"][name]
+    for entry in record["references"]:
+        for name in ("grade", "fidelity", "missing", "surplus", "volume_iou", "f1", "f2"):
+            del entry[name]
+    (run / "iteration.json").write_text(json.dumps(record))
+    with studio(tmp_path, *FIT, "--no-auto-fit") as opened:
+        collection = opened.get("/api/state")["collection"]
+        compatible = sum(entry["compatible"] for entry in record["references"])
+        assert collection["judge"] == "paper" and collection["counts"]["compatible"] == compatible
+        assert collection["counts"]["replicated"] == compatible and collection["counts"]["close"] == 0
+        assert {tile["fidelity"] for tile in collection["tiles"]} == {None}
+        opened.send("PATCH", "/api/settings", {"replicated": 0.6})
+        assert opened.get("/api/state")["collection"]["judge"] == "paper"
 
 
 def test_a_save_shows_carried_replicas_and_then_fits(fitted: Studio) -> None:
@@ -331,7 +414,7 @@ def test_bench_that_dies_starts_again(mended: Studio) -> None:
     os.kill(bench, signal.SIGKILL)
     mended.next(lambda m: m["type"] == "state" and m["bench"] == "restarting")
     mended.say(type="evaluate", id=130, slug="ball", parameters=None)
-    mended.next(lambda m: m["type"] == "distance" and m["id"] == 130)
+    mended.next(lambda m: m["type"] == "verdict" and m["id"] == 130)
 
 
 def test_cancelled_fit_leaves_nothing(mended: Studio) -> None:
@@ -373,7 +456,7 @@ def test_references_that_come_and_go(mended: Studio) -> None:
 def test_marks_are_kept(mended: Studio) -> None:
     pair = {"a": "ball", "b": "table-0", "same": False}
     mended.send("PUT", "/api/marks", [pair])
-    assert mended.get("/api/state")["marks"] == [pair]
+    assert mended.get("/api/state")["marking"]["marks"] == [pair]
     path = mended.folder / "marks.json"
     assert json.loads(path.read_text()) == [{"a": "ball", "b": "table 0", "same": False}]
     noted = {"a": "gone", "b": "gone", "same": True, "run": "000", "measures": {"distance": 0.1}}
@@ -447,6 +530,17 @@ def test_explanation_passes_through(fitted: Studio) -> None:
     assert list(found["references"]) == ["table-0"] and found["suggestions"][0]["more"] == 1
     assert fitted.request("GET", found["suggestions"][0]["picture"])[1] == b"\x89PNG"
     assert fitted.get("/api/references/table-0")["explanation"]["causes"][0]["kind"] == "range"
+    evidence = {"turned": 180, "on_its_head": False, "mirrored": False, "words": "faces the other way"}
+    told["references"]["ball"] = {
+        "causes": [{"kind": "another pose", "text": "t", "evidence": evidence}],
+        "regions": [],
+    }
+    (run / "explanation.json").write_text(json.dumps(told))
+    with studio(fitted.folder, *FIT, "--no-auto-fit") as opened:
+        shown = opened.wait_for(lambda s: s["collection"]["run"] == run.name)["collection"]
+        poses = {tile["slug"]: tile["pose"] for tile in shown["tiles"]}
+    pose = {"turned": 180, "on_its_head": False, "mirrored": False, "text": "faces the other way"}
+    assert poses == {slug: pose if slug == "ball" else None for slug in poses}
     copied = fitted.send("POST", "/api/suggestions/0/apply", {"to": "copy"})
     assert (
         copied["path"] == "procedure-1.py" and (fitted.folder / "procedure-1.py").read_text() == PROCEDURE + "# wide\n"

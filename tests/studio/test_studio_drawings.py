@@ -47,8 +47,9 @@ def test_the_loop_on_drawings(project: Path) -> None:
         drawn = running.next(lambda m: m["type"] == "drawing")
         assert drawn["path"].count("M") == 2 and drawn["missing"].count("M") == 1 and drawn["excess"] == ""
         assert drawn["units"]["size"] == pytest.approx([1.5, 1.0])
-        told = running.next(lambda m: m["type"] == "distance")
-        assert 0.0 < told["distance"] < 1.0 and 0.9 < told["iou"] < 1.0 and told["chamfer"] < 0.05
+        told = running.next(lambda m: m["type"] == "verdict")
+        measures = told["measures"]
+        assert 0.0 < told["distance"] < 1.0 and 0.9 < measures["iou"] < 1.0 and measures["chamfer"] < 0.05
         about = running.get("/api/references/wide")
         assert about["units"]["size"] == pytest.approx([150.0, 100.0]) and about["triangles"] is None
         assert running.get("/api/references/wide/shape")["path"].startswith("M")

@@ -15,6 +15,7 @@ import pytest
 import trimesh
 
 from shapewright.demo.meshes import write
+from shapewright.settings import Settings
 from studio_browser import Visit, chromium, missing
 from studio_client import Studio, ready, studio
 
@@ -98,9 +99,12 @@ def test_the_first_fit(visit: Visit) -> None:
     page.wait_for_selector(".curve path.train", timeout=240_000)
     visit.studio.wait_for(rested, 240)
     visit.go("collection")
-    page.wait_for_selector(".score:has-text('compatible')")
+    page.wait_for_selector(".score:has-text('replicated')")
     state = visit.studio.get("/api/state")["collection"]
-    assert page.inner_text(".score b") == str(state["compatible"])
+    counts = state["counts"]
+    assert page.inner_text(".score b") == str(counts["replicated"])
+    assert f"{counts['close']} close" in page.inner_text(".score")
+    assert f"paper's measure: {counts['compatible']} of {len(NAMES)}" in page.inner_text(".score")
     assert page.locator("[data-group]").count() == len(state["groups"]) > 0
     assert page.inner_text(".status").startswith("fitted in")
 
@@ -165,6 +169,7 @@ def test_a_slider_changes_the_replica_and_its_distance(visit: Visit, fitted: dic
     page.wait_for_selector(".figures:not(.waiting)")
     assert abs(float(value.input_value()) - was) > 0.1
     assert abs(visit.distance - found) > 0.01
+    assert page.inner_text("[data-figure=grade]") in ("replicated", "close", "different")
     assert page.locator("[data-stage]").screenshot() != picture
     page.click("text=As found")
     visit.until(f"{SHOWN} === '{found:.3f}'.slice(1)")
@@ -322,6 +327,27 @@ def test_marks_and_export(visit: Visit, fitted: dict[str, Any]) -> None:
     assert Path(download.value.path()).stat().st_size > 100
 
 
+def test_pairs_that_decide_most_are_marked_and_move_the_cut(visit: Visit, fitted: dict[str, Any]) -> None:
+    page, studio = visit.page, visit.studio
+    sure = [tile for tile in fitted["collection"]["tiles"] if tile["fidelity"] is not None]
+    middle = sorted(tile["fidelity"] for tile in sure)[len(sure) // 2]
+    cut = min(max(middle, 0.05), 0.95)
+    studio.send("PATCH", "/api/settings", {"close": min(0.04, cut), "replicated": cut})
+    asked = studio.get("/api/state")["marking"]["asked"]
+    assert asked
+    page.wait_for_selector(f".asking:has([data-asked='{asked[-1]}'])")
+    assert [pair.get_attribute("data-asked") for pair in page.locator("[data-asked]").all()] == asked
+    page.click(f"[data-asked='{asked[0]}'] >> text='not the same'")
+    page.wait_for_selector(f"[data-asked='{asked[0]}']", state="detached")
+    page.wait_for_selector(".asking [role=status]:has-text('1 of 1 mark')")
+    state = studio.get("/api/state")
+    assert state["marking"]["learned"]["cut"] == state["collection"]["replicated"] == state["settings"]["replicated"]
+    assert page.inner_text(".score b") == str(state["collection"]["counts"]["replicated"])
+    page.click(".asking >> text=Undo")
+    state = studio.wait_for(lambda now: not now["marking"]["marks"])
+    assert state["settings"]["replicated"] == Settings.replicated
+
+
 def test_forty_opens_leave_nothing_on_the_graphics_card(visit: Visit, fitted: dict[str, Any]) -> None:
     page = visit.page
     slugs = [tile["slug"] for tile in fitted["collection"]["tiles"]]
@@ -389,7 +415,7 @@ def test_drawings(browser: Any, tmp_path: Path) -> None:
         page.wait_for_selector(".tile")
         page.click(".button.fit")
         state = server.wait_for(rested, 240)
-        page.wait_for_selector(".score:has-text('compatible')")
+        page.wait_for_selector(".score:has-text('replicated')")
         assert state["dimension"] == 2
         visit.open("front-3")
         page.wait_for_selector(".plane.beside .sheet path >> nth=1", state="attached")

@@ -1,6 +1,8 @@
 /** A group of references that look alike: its representative, or all of it, opened in place. */
 
 import { useLayoutEffect } from "preact/hooks";
+import { valueOf } from "../state/grades";
+import { collection } from "../state/studio";
 import { Button } from "../ui/controls";
 import { fixed, plural } from "../ui/numbers";
 import type { Tile } from "../wire/messages";
@@ -43,7 +45,8 @@ export function GroupCard({ tiles, number }: { tiles: Tile[]; number: number }) 
       <header>
         <h3>Group {number}</h3>
         <p class="soft">
-          {plural(tiles.length, "reference")} · distances {spread(tiles)}
+          {plural(tiles.length, "reference")} · {collection.value.judge === "fidelity" ? "fidelity" : "distances"}{" "}
+          {spread(tiles)}
         </p>
         <Button kind="quiet" icon="up" title="Close this group (o)" onClick={toggle}>
           Close
@@ -59,7 +62,8 @@ export function GroupCard({ tiles, number }: { tiles: Tile[]; number: number }) 
 }
 
 function spread(tiles: Tile[]): string {
-  const known = tiles.flatMap((tile) => (tile.distance === null ? [] : [tile.distance]));
+  const values = tiles.map((tile) => valueOf(collection.value.judge, tile));
+  const known = values.flatMap((value) => (value === null ? [] : [value]));
   if (!known.length) return "not measured";
   const [low, high] = [fixed(Math.min(...known), 2), fixed(Math.max(...known), 2)];
   return low === high ? low : `${low} to ${high}`;

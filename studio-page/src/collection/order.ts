@@ -1,44 +1,51 @@
 /** Which tiles are shown, and in what order. */
 
 import { computed, signal } from "@preact/signals";
+import { gain, valueOf } from "../state/grades";
 import { collection, tiles } from "../state/studio";
-import type { Slug, Tile } from "../wire/messages";
+import type { Grade, Slug, Tile } from "../wire/messages";
 import { at } from "./focus";
 
-export type Filter = "all" | "incompatible" | "compatible" | "limit" | "failed";
-export type Sort = "groups" | "farthest" | "nearest" | "name" | "worse" | "better";
+export type Filter = "all" | Grade | "turned" | "limit" | "failed";
+export type Sort = "groups" | "worst" | "best" | "name" | "worse" | "better";
 
 export const filter = signal<Filter>("all");
 export const sort = signal<Sort>("groups");
 export const search = signal("");
 export const openGroups = signal<ReadonlySet<Slug>>(new Set());
-export const compatibleOpen = signal(false);
+export const replicatedOpen = signal(false);
 
 export interface Section {
-  kind: "group" | "loose" | "compatible" | "all";
+  kind: "group" | "loose" | "replicated" | "all";
   /** Representative first, in a group. */
   tiles: Tile[];
 }
 
 const FAR = Number.MAX_VALUE;
-const far = (tile: Tile): number => tile.distance ?? FAR;
-/** How much farther than in the run before; what cannot be said stands last. */
-const change = (tile: Tile): number | null =>
-  tile.previous === null || tile.distance === null ? null : tile.distance - tile.previous;
+const value = (tile: Tile): number | null => valueOf(collection.value.judge, tile);
+/** Less is better; what is not measured stands with the worst. */
+const badness = (tile: Tile): number => {
+  const known = value(tile);
+  return known === null ? FAR : collection.value.judge === "fidelity" ? -known : known;
+};
+/** How much better than in the run before; what cannot be said stands last. */
+const change = (tile: Tile): number | null => gain(collection.value.judge, tile.previous, value(tile));
 const byName = (a: Tile, b: Tile): number => a.name.localeCompare(b.name, undefined, { numeric: true });
 
 const ORDERS: Record<Exclude<Sort, "groups">, (a: Tile, b: Tile) => number> = {
-  farthest: (a, b) => far(b) - far(a) || byName(a, b),
-  nearest: (a, b) => far(a) - far(b) || byName(a, b),
+  worst: (a, b) => badness(b) - badness(a) || byName(a, b),
+  best: (a, b) => badness(a) - badness(b) || byName(a, b),
   name: byName,
-  worse: (a, b) => (change(b) ?? -FAR) - (change(a) ?? -FAR) || byName(a, b),
-  better: (a, b) => (change(a) ?? FAR) - (change(b) ?? FAR) || byName(a, b),
+  worse: (a, b) => (change(a) ?? FAR) - (change(b) ?? FAR) || byName(a, b),
+  better: (a, b) => (change(b) ?? -FAR) - (change(a) ?? -FAR) || byName(a, b),
 };
 
 const PASSES: Record<Filter, (tile: Tile) => boolean> = {
   all: () => true,
-  incompatible: (tile) => !tile.compatible,
-  compatible: (tile) => tile.compatible,
+  replicated: (tile) => tile.grade === "replicated",
+  close: (tile) => tile.grade === "close",
+  different: (tile) => tile.grade === "different",
+  turned: (tile) => tile.pose !== null,
   limit: (tile) => tile.at_limit.length > 0,
   failed: (tile) => tile.problem !== null,
 };
@@ -56,27 +63,31 @@ const shown = computed(() => {
   return collection.value.tiles.filter((tile) => PASSES[filter.value](tile) && found(tile));
 });
 
-/** Groups of what is incompatible, then the loose ones, then the compatible; or one section in another order. */
+/** A group keeps its members while a fit runs; one that another cut makes replicated leaves it. */
+const leaves = (tile: Tile): boolean => tile.stage === "trained" && tile.grade === "replicated";
+
+/** Groups of misfits, then the loose ones, then the replicated; or one section in another order. */
 export const sections = computed((): Section[] => {
   if (sort.value !== "groups") return [{ kind: "all", tiles: [...shown.value].sort(ORDERS[sort.value]) }];
   const left = new Map(shown.value.map((tile) => [tile.slug, tile]));
   const take = (slugs: Slug[]): Tile[] =>
     slugs.flatMap((slug) => {
       const tile = left.get(slug);
+      if (!tile || leaves(tile)) return [];
       left.delete(slug);
-      return tile ? [tile] : [];
+      return [tile];
     });
   const groups = collection.value.groups.map(({ representative, members }): Section => {
     return { kind: "group", tiles: take(representative === null ? members : [representative, ...members]) };
   });
   const rest = [...left.values()];
-  const compatible = rest.filter((tile) => tile.compatible).sort(ORDERS.nearest);
+  const replicated = rest.filter((tile) => tile.grade === "replicated").sort(ORDERS.best);
   // Before the first run there is nothing to tell apart.
-  const loose = rest.filter((tile) => !tile.compatible).sort(collection.value.run ? ORDERS.farthest : byName);
+  const loose = rest.filter((tile) => tile.grade !== "replicated").sort(collection.value.run ? ORDERS.worst : byName);
   return [
     ...groups,
     { kind: "loose" as const, tiles: loose },
-    { kind: "compatible" as const, tiles: compatible },
+    { kind: "replicated" as const, tiles: replicated },
   ].filter((section) => section.tiles.length > 0);
 });
 

@@ -1,5 +1,6 @@
-/** All distances on one line: a tick for each reference, and the threshold. */
+/** All references on one line: a tick for each at its fidelity, or by the paper's judge its distance, and the cuts. */
 
+import { valueOf } from "../state/grades";
 import { inspect } from "../state/route";
 import { collection } from "../state/studio";
 import { fixed } from "../ui/numbers";
@@ -8,29 +9,38 @@ const WIDTH = 260;
 const HEIGHT = 22;
 
 export function Strip() {
-  const { tiles, threshold } = collection.value;
-  const known = tiles.filter((tile) => tile.distance !== null);
+  const { tiles, judge, replicated, close, threshold } = collection.value;
+  const known = tiles.flatMap((tile) => {
+    const value = valueOf(judge, tile);
+    return value === null ? [] : [{ tile, value }];
+  });
   if (!known.length) return null;
-  const end = Math.max(2 * threshold, ...known.map((tile) => tile.distance!)) * 1.02;
-  const x = (distance: number) => (distance / end) * WIDTH;
+  const byFidelity = judge === "fidelity";
+  const cuts = byFidelity ? { replicated, close } : { threshold };
+  const end = byFidelity ? 1 : Math.max(2 * threshold, ...known.map(({ value }) => value)) * 1.02;
+  const x = (value: number) => 1 + (value / end) * (WIDTH - 2);
+  const told = Object.entries(cuts).map(([name, cut]) => `${name} ${fixed(cut)}`);
+  const what = byFidelity ? "Fidelity" : "Distances";
   return (
-    <svg class="strip" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label="Distances of all references">
+    <svg class="strip" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={`${what} of all references`}>
       <line class="axis" x1={0} x2={WIDTH} y1={HEIGHT - 0.5} y2={HEIGHT - 0.5} />
-      {known.map((tile) => (
+      {known.map(({ tile, value }) => (
         <rect
           key={tile.slug}
-          x={x(tile.distance!) - 1}
+          class={tile.grade}
+          x={x(value) - 1}
           y={5}
           width={2}
           height={HEIGHT - 6}
-          fill={tile.colour ?? undefined}
           onClick={() => inspect(tile.slug)}
         >
-          <title>{`${tile.name}: ${fixed(tile.distance)}`}</title>
+          <title>{`${tile.name}: ${fixed(value)}, ${tile.grade}`}</title>
         </rect>
       ))}
-      <path class="threshold" d={`M${x(threshold)} 0V${HEIGHT}`} />
-      <title>{`Threshold ${fixed(threshold)}`}</title>
+      {Object.entries(cuts).map(([name, cut]) => (
+        <path key={name} class="threshold" data-cut={name} d={`M${x(cut)} 0V${HEIGHT}`} />
+      ))}
+      <title>{`${what}; cuts: ${told.join(", ")}`}</title>
     </svg>
   );
 }

@@ -3,10 +3,12 @@
 import { useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
+import { gain, NOTED, stands, valueOf } from "../state/grades";
 import { inspect } from "../state/route";
+import { collection } from "../state/studio";
 import { Icon } from "../ui/icons";
 import { fixed } from "../ui/numbers";
-import { Dot, Picture } from "../ui/picture";
+import { GradeMark, Picture } from "../ui/picture";
 import type { Tile } from "../wire/messages";
 import { at } from "./focus";
 import { entry } from "./order";
@@ -20,7 +22,7 @@ const STAGES: Partial<Record<Tile["stage"], [string, string]>> = {
 
 /** Drawn anew only when its tile changes: there may be hundreds, and a fit changes them often. */
 export function TileCard({ tile, children }: Props) {
-  return useMemo(() => <Card tile={tile}>{children}</Card>, [tile, children]);
+  return useMemo(() => <Card tile={tile}>{children}</Card>, [tile, children, collection.value.judge]);
 }
 
 interface Props {
@@ -58,6 +60,12 @@ function Card({ tile, children }: Props) {
             <Icon name="warn" />
           </span>
         )}
+        {tile.pose && (
+          <span class="badge warn" title={tile.pose.text}>
+            <Icon name="turned" />
+            <span>{stands(tile.pose)}</span>
+          </span>
+        )}
         {tile.at_limit.length > 0 && (
           <span class="badge warn" title={`At the end of its Range: ${tile.at_limit.join(", ")}`}>
             <Icon name="limit" />
@@ -76,9 +84,9 @@ function Card({ tile, children }: Props) {
         )}
         <Change tile={tile} />
         {tile.replica && (
-          <span class="distance" title="Distance from the reference">
-            <Dot colour={tile.colour} />
-            {fixed(tile.distance)}
+          <span class="value" title={describe(tile)}>
+            <GradeMark grade={measured(tile) ? tile.grade : null} />
+            {fixed(valueOf(collection.value.judge, tile), 2)}
           </span>
         )}
       </footer>
@@ -89,19 +97,26 @@ function Card({ tile, children }: Props) {
 
 function describe(tile: Tile): string {
   if (tile.problem) return tile.problem.message;
-  if (tile.distance === null) return "not measured yet";
-  return `distance ${fixed(tile.distance)}, ${tile.compatible ? "compatible" : "incompatible"}`;
+  if (!measured(tile)) return "not measured yet";
+  const paper = `${tile.compatible ? "compatible" : "incompatible"} by the paper's measure, at ${fixed(tile.distance)}`;
+  const posed = tile.pose ? `; ${tile.pose.text}` : "";
+  return `${tile.grade}${tile.fidelity === null ? "" : `, fidelity ${fixed(tile.fidelity, 2)}`}; ${paper}${posed}`;
 }
 
-/** By how much it came nearer or went away since the run before, where that is worth saying. */
+const measured = (tile: Tile): boolean => valueOf(collection.value.judge, tile) !== null;
+
+/** By how much it became better or worse since the run before, where that is worth saying. */
 function Change({ tile }: { tile: Tile }) {
-  if (tile.previous === null || tile.distance === null) return null;
-  const moved = tile.distance - tile.previous;
-  if (Math.abs(moved) < 0.02) return null;
+  const { judge } = collection.value;
+  const better = gain(judge, tile.previous, valueOf(judge, tile));
+  if (better === null || Math.abs(better) < NOTED[judge]) return null;
   return (
-    <span class={`change ${moved < 0 ? "better" : "worse"}`} title={`${fixed(tile.previous)} in the run before`}>
-      {moved < 0 ? "↓" : "↑"}
-      {fixed(Math.abs(moved), 2)}
+    <span
+      class={`change ${better > 0 ? "better" : "worse"}`}
+      title={`${better > 0 ? "Better" : "Worse"}: ${fixed(tile.previous, 2)} in the run before`}
+    >
+      {better > 0 === (judge === "fidelity") ? "↑" : "↓"}
+      {fixed(Math.abs(better), 2)}
     </span>
   );
 }

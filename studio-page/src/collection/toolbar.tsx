@@ -1,10 +1,11 @@
-/** Above the tiles: how many are compatible, what is shown, in what order. */
+/** Above the tiles: how many are replicated, what is shown, in what order. */
 
 import { createRef } from "preact";
 import { collection } from "../state/studio";
 import { Segments, Select } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { percent } from "../ui/numbers";
+import { GradeMark } from "../ui/picture";
 import { focusOn } from "./focus";
 import { counts, filter, leafed, search, sort } from "./order";
 import type { Filter, Sort } from "./order";
@@ -12,15 +13,17 @@ import { Strip } from "./strip";
 
 const FILTERS: { value: Filter; label: string; title: string }[] = [
   { value: "all", label: "All", title: "All references" },
-  { value: "incompatible", label: "Incompatible", title: "What the procedure cannot replicate yet" },
-  { value: "compatible", label: "Compatible", title: "What the procedure replicates" },
+  { value: "different", label: "Different", title: "What the procedure cannot replicate yet" },
+  { value: "close", label: "Close", title: "What its replica resembles, but is not the same as" },
+  { value: "replicated", label: "Replicated", title: "What the procedure replicates" },
+  { value: "turned", label: "Stand another way", title: "Turned, on their heads or mirrored: the explanation says so" },
   { value: "limit", label: "At limit", title: "A parameter rests on the end of its Range" },
   { value: "failed", label: "Failed", title: "The procedure gave an error" },
 ];
 const SORTS: { value: Sort; label: string }[] = [
   { value: "groups", label: "Groups, largest first" },
-  { value: "farthest", label: "Farthest first" },
-  { value: "nearest", label: "Nearest first" },
+  { value: "worst", label: "Worst first" },
+  { value: "best", label: "Best first" },
   { value: "name", label: "Name" },
   { value: "better", label: "Most improved" },
   { value: "worse", label: "Most worsened" },
@@ -29,23 +32,43 @@ const SORTS: { value: Sort; label: string }[] = [
 export const searchField = createRef<HTMLInputElement>();
 
 export function Toolbar() {
-  const { compatible, count, run } = collection.value;
   return (
     <div class="toolbar">
-      <div class="score">
-        <b>{run === null && compatible === 0 ? count : compatible}</b>
-        {run === null && compatible === 0 ? (
-          <span>references</span>
-        ) : (
-          <span>
-            of {count} compatible <span class="soft">{count > 0 && percent(compatible / count)}</span>
-          </span>
-        )}
-      </div>
+      <Score />
       <Strip />
       {collection.value.tiles.some(({ replica }) => replica) && <Filters />}
       <Select label="Order" hidden options={SORTS} value={sort.value} onChange={(value) => (sort.value = value)} />
       <Search />
+    </div>
+  );
+}
+
+function Score() {
+  const { counts, count, criterion, judge, run } = collection.value;
+  if (run === null && !collection.value.tiles.some(({ replica }) => replica)) {
+    return (
+      <div class="score">
+        <b>{count}</b> references
+      </div>
+    );
+  }
+  return (
+    <div class="score">
+      <b>{counts.replicated}</b>
+      <span>
+        of {count} replicated <span class="soft">{count > 0 && percent(counts.replicated / count)}</span>
+      </span>
+      {judge === "fidelity" && (
+        <span>
+          <GradeMark grade="close" /> {counts.close} close
+        </span>
+      )}
+      <span>
+        <GradeMark grade="different" /> {counts.different} different
+      </span>
+      <span class="soft" title={`Compatible: ${criterion}`}>
+        {judge === "fidelity" ? `paper's measure: ${counts.compatible} of ${count}` : "by the paper's measure"}
+      </span>
     </div>
   );
 }

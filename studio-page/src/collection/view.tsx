@@ -9,7 +9,8 @@ import { Icon } from "../ui/icons";
 import { plural } from "../ui/numbers";
 import { at, focusOn, move } from "./focus";
 import { GroupCard } from "./group";
-import { compatibleOpen, filter, leafed, search, searching, sections, toggleGroup } from "./order";
+import { Asking } from "./asking";
+import { replicatedOpen, filter, leafed, search, searching, sections, toggleGroup } from "./order";
 import type { Section } from "./order";
 import { TileCard } from "./tile";
 import { searchField, Toolbar } from "./toolbar";
@@ -32,6 +33,7 @@ export function CollectionView() {
             procedure comes nearest to it.
           </p>
         )}
+        {filter.value === "all" && !searching.value && <Asking />}
         {sections.value.length === 0 ? <NothingFound /> : <Sections />}
         {skipped.length > 0 && (
           <details class="skipped">
@@ -63,7 +65,7 @@ function ActiveKeys() {
     { keys: ["ArrowUp", "k"], does: "a row up", run: () => move("up") },
     { keys: ["Enter"], does: "open in the inspector", run: openFocused },
     { keys: ["o", " "], does: "open or close the group", run: toggleFocused },
-    { keys: ["c"], does: "fold or unfold the compatible", run: () => (compatibleOpen.value = !compatibleOpen.value) },
+    { keys: ["c"], does: "fold or unfold the replicated", run: () => (replicatedOpen.value = !replicatedOpen.value) },
     { keys: ["/"], does: "search", run: () => searchField.current?.focus() },
   ]);
   return null;
@@ -90,9 +92,9 @@ function Sections() {
   return (
     <>
       {groups.length > 0 && (
-        <section aria-label="Incompatible, in groups">
+        <section aria-label="Not replicated, in groups">
           <h2>
-            Incompatible <small>{groups.reduce((sum, { tiles }) => sum + tiles.length, 0)}</small>
+            Not replicated <small>{groups.reduce((sum, { tiles }) => sum + tiles.length, 0)}</small>
             <span class="soft"> in {plural(groups.length, "group")}</span>
           </h2>
           <div class="tiles">
@@ -110,10 +112,10 @@ function Sections() {
 }
 
 function Plain({ section: { kind, tiles } }: { section: Section }) {
-  const folded = kind === "compatible" && filter.value === "all" && !searching.value && !compatibleOpen.value;
+  const folded = kind === "replicated" && filter.value === "all" && !searching.value && !replicatedOpen.value;
   const title = {
     loose: collection.value.run ? "Not in a group" : "References",
-    compatible: "Compatible",
+    replicated: "Replicated",
     all: "",
     group: "",
   }[kind];
@@ -121,8 +123,8 @@ function Plain({ section: { kind, tiles } }: { section: Section }) {
     <section aria-label={title || "References"}>
       {title && (
         <h2>
-          {kind === "compatible" ? (
-            <button type="button" class="fold" aria-expanded={!folded} onClick={() => (compatibleOpen.value = folded)}>
+          {kind === "replicated" ? (
+            <button type="button" class="fold" aria-expanded={!folded} onClick={() => (replicatedOpen.value = folded)}>
               <Icon name={folded ? "right" : "down"} />
               {title} <small>{tiles.length}</small>
             </button>

@@ -2,11 +2,12 @@
 
 import { mark } from "../state/actions";
 import { inspect } from "../state/route";
-import { collection, marks, tiles } from "../state/studio";
+import { valueOf } from "../state/grades";
+import { collection, marking, marks, tiles } from "../state/studio";
 import { Button } from "../ui/controls";
-import { fixed } from "../ui/numbers";
-import { Dot, Picture } from "../ui/picture";
-import type { Mark } from "../wire/messages";
+import { fixed, plural } from "../ui/numbers";
+import { GradeMark, Picture } from "../ui/picture";
+import type { Learned, Mark } from "../wire/messages";
 
 export function Marks() {
   const known = marks.value.filter(({ a, b }) => tiles.value.has(a) && tiles.value.has(b));
@@ -15,10 +16,11 @@ export function Marks() {
       <h2>
         Marked pairs <small>{known.length}</small>
       </h2>
+      {marking.value.learned && <p class="soft">{cutSaid(marking.value.learned)}</p>}
       {known.length === 0 ? (
         <p class="soft">
-          Open a pair and say whether it is the same or different to your eye (keys s and x). From some marks of each
-          kind, a threshold that means what you mean can be found; it is {fixed(collection.value.threshold, 2)} now.
+          Open a pair and say whether it is the same or different to your eye (keys s and x), or mark those that the
+          collection asks for. The cut follows your marks.
         </p>
       ) : (
         <ul class="marks">
@@ -29,6 +31,13 @@ export function Marks() {
       )}
     </section>
   );
+}
+
+/** What the marks say of the cut. */
+export function cutSaid({ judge, count, cut, agrees, usual, usual_agrees }: Learned): string {
+  const what = judge === "fidelity" ? "Replicated is a fidelity of at least" : "Compatible is a distance of at most";
+  const without = cut === usual ? "as without marks" : `${fixed(usual)} without marks agrees with ${usual_agrees}`;
+  return `${what} ${fixed(cut)}: it agrees with ${agrees} of ${plural(count, "mark")} (${without}).`;
 }
 
 function Line({ one }: { one: Mark }) {
@@ -44,9 +53,9 @@ function Line({ one }: { one: Mark }) {
       </button>
       <span class="name">{own ? a.name : `${a.name}, ${b.name}`}</span>
       {own && (
-        <span class="distance">
-          <Dot colour={a.colour} />
-          {fixed(a.distance)}
+        <span class="value">
+          <GradeMark grade={a.grade} />
+          {fixed(valueOf(collection.value.judge, a), 2)}
         </span>
       )}
       <span class={`badge ${one.same ? "good" : "bad"}`}>{one.same ? "same" : "different"}</span>

@@ -42,7 +42,7 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
           <span class="badge cause">{kind.replaceAll("_", " ")}</span>
           <h3>{title}</h3>
           {gain !== null && gain !== undefined && (
-            <span class="gain" title="Further references that become compatible, as tried">
+            <span class="gain" title="Further references that become replicated, as tried">
               +{gain}
             </span>
           )}

@@ -55,7 +55,7 @@ export function FeedbackView() {
             <p class="soft">
               {collection.value.run === null
                 ? "After the first fit, what differs can be explained here."
-                : "For every incompatible reference: where it differs, why, and which change of the procedure would help. Each suggestion is tried before it is shown."}
+                : "For every reference that is not replicated: where it differs, why, and which change of the procedure would help. Each suggestion is tried before it is shown."}
             </p>
             <Explain />
           </section>

@@ -65,9 +65,9 @@ export function App() {
 
 /** What the browser's tab says: how the loop stands, even from afar. */
 function title(): string {
-  const { compatible, count, run } = collection.value;
+  const { counts, count, run } = collection.value;
   const name = project.value.name || "shapewright studio";
   if (fitting.value) return `${jobs.fit.value.stages.at(-1)?.name ?? "fit"}… ${name}`;
   if (procedure.value.state === "broken") return `broken: ${name}`;
-  return run === null ? name : `${compatible}/${count} ${name}`;
+  return run === null ? name : `${counts.replicated}/${count} ${name}`;
 }

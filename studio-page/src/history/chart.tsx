@@ -1,4 +1,4 @@
-/** Compatible references by iteration, as bars that choose what is compared. */
+/** References by grade and iteration, as bars that choose what is compared. */
 
 import { moment, plural } from "../ui/numbers";
 import type { Run } from "../wire/messages";
@@ -20,13 +20,14 @@ export function Chart(props: {
           <li key={run.run} class={role}>
             <button
               type="button"
-              title={`${moment(run.created)}: ${run.compatible} of ${plural(run.references, "reference")}, ${plural(run.groups, "group")}. Shift and click to compare from here.`}
+              title={`${said(run)} Shift and click to compare from here.`}
               aria-pressed={role !== ""}
               onClick={(event) => props.onPick(run.run, event.shiftKey)}
             >
-              <span class="count">{run.compatible}</span>
+              <span class="count">{run.counts.replicated}</span>
               <i class="all" style={{ height: `${(run.references / most) * HEIGHT}px` }}>
-                <i class="compatible" style={{ height: `${(100 * run.compatible) / Math.max(1, run.references)}%` }} />
+                <i class="close" style={{ height: share(run, run.counts.close) }} />
+                <i class="replicated" style={{ height: share(run, run.counts.replicated) }} />
               </i>
               <span class="run">{run.run}</span>
               <small>{role || (run.current ? "shown" : "\u00a0")}</small>
@@ -36,4 +37,16 @@ export function Chart(props: {
       })}
     </ol>
   );
+}
+
+const share = ({ references }: Run, count: number): string => `${(100 * count) / Math.max(1, references)}%`;
+
+/** All counts of a run, in words. */
+export function said({ created, references, groups, judge, counts }: Run): string {
+  const { replicated, close, different, compatible } = counts;
+  const all =
+    judge === "fidelity"
+      ? `${replicated} replicated, ${close} close, ${different} different; paper's measure: ${compatible} of ${references}`
+      : `${replicated} of ${references} replicated by the paper's measure`;
+  return `${moment(created)}: ${all}; ${plural(groups, "group")}.`;
 }

@@ -3,19 +3,19 @@
 import { inspect } from "../state/route";
 import { tiles } from "../state/studio";
 import { fixed } from "../ui/numbers";
-import { Dot, Picture } from "../ui/picture";
+import { GradeMark, Picture } from "../ui/picture";
 import type { Comparison, Move } from "../wire/messages";
 
 const KINDS = [
-  { kind: "gained", title: "Newly compatible" },
-  { kind: "lost", title: "No longer compatible" },
-  { kind: "closer", title: "Nearer" },
-  { kind: "further", title: "Farther" },
+  { kind: "gained", title: "Newly replicated" },
+  { kind: "lost", title: "No longer replicated" },
+  { kind: "closer", title: "Better, same side of the cut" },
+  { kind: "further", title: "Worse, same side of the cut" },
 ] as const;
 
 export function Moves({ comparison }: { comparison: Comparison }) {
   const some = KINDS.filter(({ kind }) => comparison[kind].length > 0);
-  const { same, added, removed } = comparison;
+  const { same, added, removed, judge } = comparison;
   return (
     <div class="moves">
       {some.length === 0 && <p class="soft">No reference has changed between the two.</p>}
@@ -37,7 +37,10 @@ export function Moves({ comparison }: { comparison: Comparison }) {
         </section>
       ))}
       <p class="soft">
-        {same} stayed where they were.
+        {same} stayed where they were.{" "}
+        {judge === "fidelity"
+          ? "Numbers are fidelities."
+          : "Numbers are distances by the paper's measure, which judges here."}
         {added.length > 0 && ` New references: ${added.join(", ")}.`}
         {removed.length > 0 && ` Gone: ${removed.join(", ")}.`}
       </p>
@@ -64,13 +67,13 @@ function MoveCard({ move }: { move: Move }) {
         <span class="name" title={move.name}>
           {move.name}
         </span>
-        <span class="distance">
-          <Dot colour={move.colour_before} />
-          {fixed(move.before)}
+        <span class="value">
+          <GradeMark grade={move.before === null ? null : move.grade_before} />
+          {fixed(move.before, 2)}
         </span>
-        <span class="distance">
-          → <Dot colour={move.colour_after} />
-          {fixed(move.after)}
+        <span class="value">
+          → <GradeMark grade={move.after === null ? null : move.grade_after} />
+          {fixed(move.after, 2)}
         </span>
       </footer>
     </article>

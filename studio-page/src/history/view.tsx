@@ -4,10 +4,10 @@ import { useComputed, useSignal, useSignalEffect } from "@preact/signals";
 import { complain, tell } from "../state/notices";
 import { procedure, runs } from "../state/studio";
 import { Button, Empty, Select } from "../ui/controls";
-import { duration, moment, plural } from "../ui/numbers";
+import { duration } from "../ui/numbers";
 import type { Comparison, Run } from "../wire/messages";
 import { requests } from "../wire/requests";
-import { Chart } from "./chart";
+import { Chart, said } from "./chart";
 import { Diff } from "./diff";
 import { Moves } from "./moves";
 
@@ -39,7 +39,7 @@ export function HistoryView() {
   const pick = (run: string, asBefore: boolean) => {
     picked.value = asBefore ? { before: run, after } : { before: picked.value.before, after: run };
   };
-  const options = runs.value.map(({ run, compatible }) => ({ value: run, label: `${run} (${compatible})` }));
+  const options = runs.value.map(({ run, counts }) => ({ value: run, label: `${run} (${counts.replicated})` }));
   return (
     <div class="history">
       <section class="overview">
@@ -94,7 +94,7 @@ function RunFacts({ run }: { run: Run }) {
   return (
     <div class="run-facts">
       <p>
-        <b>Run {run.run}</b> · {moment(run.created)} · {duration(run.seconds)} · {plural(run.groups, "group")}
+        <b>Run {run.run}</b> · {duration(run.seconds)} · {said(run)}
       </p>
       <div class="row">
         <Button

@@ -3,12 +3,25 @@
 import { signal } from "@preact/signals";
 import { Toggle } from "../ui/controls";
 import { percent } from "../ui/numbers";
-import type { Region } from "../wire/messages";
+import type { Piece, Region, Vector } from "../wire/messages";
 import { reference } from "./pair/session";
 
 export const regionsShown = signal(false);
 /** The region that the pointer is on in the list. */
 export const pointed = signal<Region | null>(null);
+
+/** What the judge found, as a region of the stage: its boxes lie in the frame of both shapes. */
+export function boxOf({ low, high, share }: Piece, side: Region["side"]): Region {
+  const middle = low.map((x, i) => (x + high[i]!) / 2) as Vector;
+  const size = low.map((x, i) => high[i]! - x) as Vector;
+  return { side, centre: middle, size, axes: AXES, share, distance: null, label: null, rule: null };
+}
+/** The axes of every box of the judge; a region with them stands where it is, whatever the explanation's placement. */
+export const AXES: Region["axes"] = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+];
 
 const WHOSE = { unexplained: "missing", surplus: "too much" } as const;
 

@@ -1,50 +1,52 @@
-/** How near the replica is now, and was as found. */
+/** What the judge says of the replica now, and said as found. */
 
-import { mark } from "../state/actions";
-import { collection, dimension, marks } from "../state/studio";
+import { change, fit, mark } from "../state/actions";
+import { differences, gain, stands, valueOf } from "../state/grades";
+import { collection, dimension, fitting, marking, marks, settings, tileOf } from "../state/studio";
 import { Button } from "../ui/controls";
+import { Icon } from "../ui/icons";
 import { fixed, plural, significant } from "../ui/numbers";
-import { Dot } from "../ui/picture";
+import { GradeMark } from "../ui/picture";
+import type { Piece } from "../wire/messages";
+import { MEASURES } from "../wire/messages/settings";
+import { boxOf, pointed } from "./causes";
 import { edited, failure, figures, outcome, reference, replica, waiting } from "./pair/session";
 
 export function Figures() {
-  const now = figures.value ?? reference.value;
-  const found = reference.value?.distance ?? null;
-  const moved = edited.value && now?.distance != null && found !== null ? now.distance - found : null;
   const failed = failure.value;
+  const now = failed ? null : (figures.value ?? reference.value);
+  const { judge } = collection.value;
+  const value = now && valueOf(judge, now);
+  const found = reference.value && valueOf(judge, reference.value);
+  const better = edited.value ? gain(judge, found, value) : null;
   return (
     <section class={`figures ${waiting.value && figures.value ? "waiting" : ""}`} aria-live="polite">
       <div class="main">
-        <Dot colour={failed ? null : (now?.colour ?? null)} />
-        <output data-figure="distance">{failed ? "–" : fixed(now?.distance)}</output>
-        <span class={`verdict ${now?.compatible && !failed ? "good" : ""}`}>
-          {failed
-            ? "no shape"
-            : now?.distance == null
-              ? "not measured"
-              : now.compatible
-                ? "compatible"
-                : "incompatible"}
-          <small>{collection.value.criterion}</small>
+        <GradeMark grade={now && value !== null ? now.grade : null} />
+        <output data-figure="value">{fixed(value)}</output>
+        <span class={`verdict ${now && value !== null ? now.grade : ""}`}>
+          <span data-figure="grade">{failed ? "no shape" : value === null ? "not measured" : now?.grade}</span>
+          <small>{cutsSaid()}</small>
         </span>
-        {moved !== null && Math.abs(moved) >= 0.0005 && (
-          <span class={`change ${moved < 0 ? "better" : "worse"}`} title={`${fixed(found)} as found`}>
-            {moved < 0 ? "↓" : "↑"}
-            {fixed(Math.abs(moved))}
+        {better !== null && Math.abs(better) >= 0.0005 && (
+          <span class={`change ${better > 0 ? "better" : "worse"}`} title={`${fixed(found)} as found`}>
+            {better > 0 === (judge === "fidelity") ? "↑" : "↓"}
+            {fixed(Math.abs(better))}
           </span>
         )}
       </div>
+      {now && <Regions missing={now.missing} surplus={now.surplus} />}
+      <p class="paper" title={collection.value.criterion}>
+        Paper's measure: {collection.value.measure} <span data-figure="distance">{fixed(now?.distance)}</span>
+        {now && now.distance !== null && (now.compatible ? ", compatible" : ", incompatible")}
+      </p>
       <dl>
-        <div title="Overlap of the silhouettes: 1 is perfect">
-          <dt>IoU</dt>
-          <dd>{fixed(failed ? null : now?.iou)}</dd>
-        </div>
-        {dimension.value === 3 && (
-          <div title="Mean distance of the surfaces, as part of the largest extent">
-            <dt>Chamfer</dt>
-            <dd>{fixed(failed ? null : now?.chamfer, 4)}</dd>
+        {MEASURED.filter((name) => dimension.value === 3 || !SOLID.has(name)).map((name) => (
+          <div key={name} title={MEASURES[name]}>
+            <dt>{name === "iou" && dimension.value === 2 ? "Area IoU" : SHORT[name]}</dt>
+            <dd data-measure-of={name}>{fixed(now?.measures[name], name === "chamfer" ? 4 : 3)}</dd>
           </div>
-        )}
+        ))}
         <div title="Time that the procedure took">
           <dt>Built in</dt>
           <dd>{outcome.value ? `${significant(outcome.value.milliseconds, 2)} ms` : "–"}</dd>
@@ -65,7 +67,68 @@ export function Figures() {
   );
 }
 
-/** Whether the author calls the two the same, whatever the distance says. */
+const SHORT: Record<string, string> = {
+  iou: "Silhouette IoU",
+  volume_iou: "Volume IoU",
+  f1: "F-score 1 %",
+  f2: "F-score 2 %",
+  chamfer: "Chamfer",
+  depth: "Depth difference",
+};
+const MEASURED = Object.keys(SHORT);
+/** Of meshes alone. */
+const SOLID = new Set(["volume_iou", "depth"]);
+
+function cutsSaid(): string {
+  const { judge, replicated, close, criterion } = collection.value;
+  return judge === "fidelity"
+    ? `fidelity; replicated from ${fixed(replicated, 2)}, close from ${fixed(close, 2)}`
+    : criterion;
+}
+
+/** The largest regions without a counterpart, in words; the stage marks the one that the pointer is on. */
+function Regions({ missing, surplus }: { missing: Piece[]; surplus: Piece[] }) {
+  const told = differences(missing, surplus);
+  if (!told.length) return null;
+  return (
+    <ul class="regions-said">
+      {told.map(({ piece, words }) => (
+        <li
+          key={words}
+          onPointerEnter={() => (pointed.value = boxOf(piece, missing.includes(piece) ? "unexplained" : "surplus"))}
+          onPointerLeave={() => (pointed.value = null)}
+        >
+          {words}.
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+/** A reference that stands another way than its replica, and what to do. */
+export function Standing() {
+  const pose = tileOf(reference.value?.slug ?? "")?.pose;
+  if (!pose) return null;
+  const picture = reference.value?.explanation?.causes.find(({ picture }) => picture)?.picture;
+  const facing = settings.value?.facing;
+  const find = () => void change({ facing: "found" }).then(() => fit());
+  return (
+    <section class="standing" data-standing>
+      <h3>
+        <Icon name="turned" /> Stands another way: {stands(pose)}
+      </h3>
+      {picture && <img src={`data:image/png;base64,${picture}`} alt="The reference as it would fit" />}
+      <p>This reference {pose.text}.</p>
+      {!pose.on_its_head && !pose.mirrored && facing === "given" && (
+        <Button disabled={fitting.value} title="Sets Facing to found in the settings of the loop" onClick={find}>
+          Fit with facing found
+        </Button>
+      )}
+    </section>
+  );
+}
+
+/** Whether the author calls the two the same, whatever the judge says. */
 export function Judgement() {
   const open = reference.value;
   if (!open) return null;
@@ -83,9 +146,8 @@ export function Judgement() {
         </Button>
       </div>
       <p class="soft">
-        {marks.value.length === 0
-          ? "Marks tell what the threshold should be."
-          : `${plural(marks.value.length, "pair")} marked.`}
+        {marks.value.length === 0 ? "The cut follows your marks." : `${plural(marks.value.length, "pair")} marked.`}
+        {marking.value.asked.includes(open.slug) && " The judge is not sure of this one: a mark here decides much."}
       </p>
     </section>
   );

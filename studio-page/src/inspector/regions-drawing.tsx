@@ -2,9 +2,9 @@
 
 import { Vector3 } from "three";
 import type { Side, Stage } from "../viewer/stage";
-import type { Region } from "../wire/messages";
-import { pointed, regionsShown } from "./causes";
-import { reference } from "./pair/session";
+import type { Piece, Region } from "../wire/messages";
+import { AXES, boxOf, pointed, regionsShown } from "./causes";
+import { figures, reference } from "./pair/session";
 import { drawn, stage } from "./pair/layout";
 
 /** Each edge of a box joins two of its corners that differ in one direction. */
@@ -15,8 +15,7 @@ const EDGES = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) =>
 export function RegionsDrawing() {
   void drawn.value;
   const open = stage.value;
-  const regions = reference.value?.explanation?.regions ?? [];
-  const shown = regionsShown.value ? regions : pointed.value ? [pointed.value] : [];
+  const shown = [...(regionsShown.value ? regions() : []), ...(pointed.value ? [pointed.value] : [])];
   if (!open || !shown.length) return null;
   return (
     <svg class="regions" aria-hidden="true">
@@ -27,13 +26,23 @@ export function RegionsDrawing() {
   );
 }
 
+/** As explained, else as the judge finds them. */
+function regions(): Region[] {
+  const explained = reference.value?.explanation?.regions ?? [];
+  if (explained.length) return explained;
+  const now = figures.value ?? reference.value;
+  const boxes = (pieces: Piece[], side: Region["side"]) => pieces.map((piece) => boxOf(piece, side));
+  return now ? [...boxes(now.missing, "unexplained"), ...boxes(now.surplus, "surplus")] : [];
+}
+
 function outline(open: Stage, { side, centre, size, axes }: Region): string {
   const half: Side = side === "unexplained" ? "reference" : "replica";
   const seen = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => {
     const corner = new Vector3(...centre);
     axes.forEach((axis, k) => corner.addScaledVector(new Vector3(...axis), ((i >> k) & 1 ? 0.5 : -0.5) * size[k]!));
     const placement = reference.value?.explanation?.placement;
-    if (side === "surplus" && placement) corner.divideScalar(placement.scale).add(new Vector3(...placement.centre));
+    if (side === "surplus" && placement && axes !== AXES)
+      corner.divideScalar(placement.scale).add(new Vector3(...placement.centre));
     return open.project(corner, half);
   });
   return EDGES.map(([i, j]) => [seen[i], seen[j]] as const)

@@ -13,7 +13,7 @@ import type { Slug } from "../wire/messages";
 import { VIEWS } from "../viewer/stage";
 import type { View } from "../viewer/stage";
 import { Causes, regionsShown } from "./causes";
-import { Facts, Figures, Judgement } from "./figures";
+import { Facts, Figures, Judgement, Standing } from "./figures";
 import { LayoutSwitch, Legend, OverLegend } from "./legend";
 import { MeasureCard } from "./measuring/card";
 import { take, tool, undo } from "./measuring/points";
@@ -75,6 +75,7 @@ export function Inspector({ slug }: { slug: Slug }) {
         </header>
         {!flat && webgl.value && <MeasureCard />}
         <Figures />
+        <Standing />
         <Parameters />
         <Causes />
         <Judgement />

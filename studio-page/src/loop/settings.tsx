@@ -1,21 +1,31 @@
 /** How a fit runs. */
 
 import { change } from "../state/actions";
-import { settings } from "../state/studio";
+import { dimension, settings } from "../state/studio";
 import { Select, Toggle } from "../ui/controls";
+import { significant } from "../ui/numbers";
 import type { ChosenSettings as Values } from "../wire/messages";
 import { PRESETS, SETTINGS } from "../wire/messages/settings";
 
 type Numeric = { [K in keyof Values]: Values[K] extends number ? K : never }[keyof Values];
 
-const NUMBERS: [name: Numeric, label: string][] = [
+const NUMBERS: [name: Numeric, label: string, shown?: (now: Values) => boolean][] = [
   ["samples", "Samples"],
   ["epochs", "Epochs"],
   ["rounds", "Adaptive rounds"],
   ["seed", "Seed"],
-  ["threshold", "Threshold"],
+  ["replicated", "Replicated from", ({ judge }) => judge === "fidelity"],
+  ["close", "Close from", ({ judge }) => judge === "fidelity"],
+  ["threshold", "Paper's threshold", () => dimension.value === 3],
+  ["vif", "Paper's least VIF", () => dimension.value === 2],
   ["shape_seconds", "Seconds a shape"],
 ];
+
+const CHOICES = [
+  ["refine", "Search"],
+  ["facing", "Facing"],
+  ["judge", "Judge"],
+] as const;
 
 const options = <T extends string>(values: readonly T[]) => values.map((value) => ({ value, label: value }));
 
@@ -37,13 +47,17 @@ export function Settings() {
         value={now.preset}
         onChange={(preset) => void change({ preset })}
       />
-      <Select
-        label="Search"
-        options={options(SETTINGS.refine.choices)}
-        value={now.refine}
-        onChange={(refine) => void change({ refine })}
-      />
-      {NUMBERS.map(([name, label]) => (
+      {CHOICES.map(([name, label]) => (
+        <Select
+          key={name}
+          label={label}
+          title={SETTINGS[name].help}
+          options={options<string>(SETTINGS[name].choices)}
+          value={now[name]}
+          onChange={(value) => void change({ [name]: value })}
+        />
+      ))}
+      {NUMBERS.filter(([, , shown]) => !shown || shown(now)).map(([name, label]) => (
         <label key={name} class="field" title={SETTINGS[name].help}>
           <span>{label}</span>
           <input
@@ -51,7 +65,7 @@ export function Settings() {
             min={SETTINGS[name].least}
             max={SETTINGS[name].most ?? undefined}
             step={SETTINGS[name].step}
-            value={now[name]}
+            value={significant(now[name])}
             onChange={(event) => {
               const value = event.currentTarget.valueAsNumber;
               if (Number.isFinite(value)) void change({ [name]: value });

@@ -52,7 +52,7 @@ export function LoopView() {
 
 function summary(): string {
   const job = jobs.fit.value;
-  const { run, compatible, count } = collection.value;
+  const { run, counts, count } = collection.value;
   switch (job.state) {
     case "running":
       return `running for ${duration(job.seconds)}`;
@@ -63,6 +63,8 @@ function summary(): string {
     case "failed":
       return "failed; the results before it stay";
     default:
-      return run === null ? "not run yet" : `run ${run}: ${compatible} of ${plural(count, "reference")} compatible`;
+      return run === null
+        ? "not run yet"
+        : `run ${run}: ${counts.replicated} of ${plural(count, "reference")} replicated`;
   }
 }

@@ -3,7 +3,7 @@
 import { requests } from "../wire/requests";
 import type { ChosenSettings, JobKind, Mark, Slug } from "../wire/messages";
 import { complain, tell } from "./notices";
-import { marks, settings } from "./studio";
+import { marking, marks, settings } from "./studio";
 
 export function fit(fresh = false): void {
   requests.fit(fresh).catch(complain);
@@ -33,7 +33,10 @@ export function mark(a: Slug, b: Slug, same: boolean | null): void {
   const next: Mark[] = same === null ? others : [...others, { a, b, same }];
   requests
     .marks(next)
-    .then(() => (marks.value = next))
+    .then(() => {
+      const asked = marking.value.asked.filter((slug) => same === null || slug !== a);
+      marking.value = { ...marking.value, marks: next, asked };
+    })
     .catch(complain);
 }
 

@@ -8,6 +8,7 @@ import type {
   Job,
   JobKind,
   Mark,
+  Marking,
   Problem,
   Procedure,
   Run,
@@ -16,6 +17,7 @@ import type {
   Tile,
 } from "../wire/messages";
 import { connect } from "../wire/live";
+import { counted } from "./grades";
 import { complain } from "./notices";
 
 const idle = (kind: JobKind): Job => ({
@@ -47,11 +49,14 @@ export const procedure = signal<Procedure>({
 });
 export const collection = signal<Collection>({
   run: null,
+  judge: "fidelity",
+  replicated: 0.5,
+  close: 0.2,
   threshold: 0.18,
   measure: "",
   criterion: "",
   count: 0,
-  compatible: 0,
+  counts: { replicated: 0, close: 0, different: 0, compatible: 0 },
   tiles: [],
   groups: [],
   skipped: [],
@@ -63,7 +68,8 @@ export const jobs = {
 };
 export const runs = signal<Run[]>([]);
 export const settings = signal<ChosenSettings | null>(null);
-export const marks = signal<Mark[]>([]);
+export const marking = signal<Marking>({ marks: [], learned: null, asked: [] });
+export const marks = computed((): Mark[] => marking.value.marks);
 export const explained = signal(false);
 export const problems = signal<Problem[]>([]);
 
@@ -101,7 +107,7 @@ function apply(change: Change): void {
       runs.value = change.runs;
       return;
     case "marks":
-      marks.value = change.marks;
+      marking.value = change.marking;
       return;
     case "settings":
       settings.value = change.settings;
@@ -127,7 +133,7 @@ function replace(state: State): void {
   for (const kind of ["fit", "explain", "export"] as const) jobs[kind].value = state.jobs[kind];
   runs.value = state.runs;
   settings.value = state.settings;
-  marks.value = state.marks;
+  marking.value = state.marking;
   explained.value = state.explanation;
   problems.value = state.problems;
   ready.value = true;
@@ -141,12 +147,11 @@ function replaceTiles(changed: Tile[]): void {
     return next ? provisional(next, tile) : tile;
   });
   const all = [...kept, ...bySlug.values()];
-  const compatible = all.filter((tile) => tile.compatible).length;
-  collection.value = { ...collection.value, tiles: all, count: all.length, compatible };
+  collection.value = { ...collection.value, tiles: all, count: all.length, counts: counted(all) };
 }
 
-/** A replica that is not measured yet stays on its side of the threshold, so that tiles do not jump there and back. */
+/** A replica that is not measured yet keeps the grade of before, so that tiles do not jump there and back. */
 function provisional(next: Tile, before: Tile): Tile {
   const waits = next.distance === null && next.replica !== null && next.problem === null;
-  return waits ? { ...next, compatible: before.compatible } : next;
+  return waits ? { ...next, grade: before.grade, compatible: before.compatible } : next;
 }

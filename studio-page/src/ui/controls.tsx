@@ -81,11 +81,12 @@ export function Select<T extends string>(props: {
   label: string;
   options: readonly { value: T; label: string }[];
   value: T;
+  title?: string;
   hidden?: boolean;
   onChange: (value: T) => void;
 }) {
   return (
-    <label class="field">
+    <label class="field" title={props.title}>
       {!props.hidden && <span>{props.label}</span>}
       <select
         aria-label={props.label}

@@ -1,6 +1,6 @@
 /** Binary messages: the length of a header, the header as JSON, and its buffers in order. */
 
-import type { DistanceMessage, DrawingMessage, FailedMessage, MeshHead, ResidualsHead } from "./messages";
+import type { DrawingMessage, FailedMessage, MeshHead, ResidualsHead, VerdictMessage } from "./messages";
 
 export interface MeshMessage extends MeshHead {
   positions: Float32Array;
@@ -16,7 +16,7 @@ export interface ResidualsMessage extends ResidualsHead {
 }
 
 /** The answers of live evaluation. */
-export type Evaluated = MeshMessage | DrawingMessage | DistanceMessage | ResidualsMessage | FailedMessage;
+export type Evaluated = MeshMessage | DrawingMessage | VerdictMessage | ResidualsMessage | FailedMessage;
 
 const ARRAYS = { f32: Float32Array, u32: Uint32Array, i32: Int32Array } as const;
 

@@ -6,7 +6,7 @@ import type { Change, PageMessage, Slug, Values } from "./messages";
 
 const FIRST_WAIT = 400;
 const LONGEST_WAIT = 5000;
-const EVALUATED = new Set(["distance", "drawing", "failed"]);
+const EVALUATED = new Set(["verdict", "drawing", "failed"]);
 
 export interface Listener {
   changed(change: Change): void;

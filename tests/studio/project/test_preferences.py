@@ -21,6 +21,10 @@ def test_the_page_gets_its_own_entries_and_some_settings():
         ({"preset": "papr"}, "preset='papr' must be fast or paper; did you mean paper?"),
         ({"rfine": "off"}, "there is no setting 'rfine'; did you mean refine?"),
         ({"workers": 2}, "there is no setting 'workers'"),
+        ({"judge": "eye"}, "judge='eye' must be fidelity or paper"),
+        ({"replicated": 1.0}, "replicated=1.0 must be a finite number, greater than 0 and less than 1"),
+        ({"vif": 0}, "vif=0 must be a finite number, greater than 0 and less than 1"),
+        ({"replicated": 0.1}, "close=0.2 must be at most replicated=0.1"),
     ],
 )
 def test_what_a_setting_does_not_allow_is_refused(given, message):
@@ -35,4 +39,6 @@ def test_another_preset_keeps_what_no_preset_says():
     assert (paper.preset, paper.settings.network, paper.settings.samples) == ("paper", "vgg19", 500)
     assert (paper.settings.threshold, paper.settings.seed, paper.settings.workers) == (0.2, 3, 2)
     assert (paper.settings.epochs, paper.settings.rounds) == (50, 0)
+    assert (before.settings.judge, paper.settings.judge) == ("fidelity", "paper")
+    assert paper.changed({"preset": "fast"}).settings.judge == "fidelity"
     assert before.changed({"preset": "fast", "fresh": True}).settings == before.settings

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from shapewright.studio.wire.collection import Mark
+from shapewright.studio.wire.judgement import Mark
 from shapewright.studio.wire.requests import (
     ApplyOrder,
     CancelOrder,

@@ -9,7 +9,7 @@ from msgspec import Struct
 from shapewright.building.outcomes import Limits
 from shapewright.settings import Align
 from shapewright.studio.project.listing import Origin
-from shapewright.studio.wire.answers import DistanceMessage, DrawingMessage, FailedMessage
+from shapewright.studio.wire.answers import DrawingMessage, FailedMessage, VerdictMessage
 from shapewright.studio.wire.collection import Parameter
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.requests import Evaluate
@@ -131,6 +131,7 @@ class Measured(BenchMessage, frozen=True):
 
     sweep: int
     slug: Slug
+    fidelity: float | None
     distance: float | None
 
 
@@ -141,7 +142,7 @@ class SweepEnded(BenchMessage, frozen=True):
     given_up: bool  # too many shapes exceeded the time limit
 
 
-LiveMessage: TypeAlias = DistanceMessage | DrawingMessage | FailedMessage
+LiveMessage: TypeAlias = VerdictMessage | DrawingMessage | FailedMessage
 
 
 class Answered(BenchMessage, frozen=True):

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from shapewright.judging.judge import target_of
-from shapewright.judging.target import Measures, Target
+from shapewright.judging.target import Target
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.thumbnails import thumbnail
@@ -26,12 +26,12 @@ from shapewright.studio.bench.residual_colours import ResidualColours
 from shapewright.studio.bench.sweep import Sweep
 from shapewright.studio.bench.workshop import Broken, Workshop
 from shapewright.studio.project.listing import Listing, listing
-from shapewright.studio.wire.answers import DistanceMessage, DrawingMessage, FailedMessage
+from shapewright.studio.wire.answers import DrawingMessage, FailedMessage
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.detail import About
 from shapewright.studio.wire.problems import Problem, of_failure
 from shapewright.studio.wire.requests import Evaluate
-from shapewright.studio.wire.values import Slug, Values, message_of
+from shapewright.studio.wire.values import Slug, Values
 
 _MEMORY = 24 * 2**20
 
@@ -216,8 +216,7 @@ class Bench:
             answer(shape_messages.drawing_message(replica, reference, **head))
         if slug is None or self._inbox.outdated:
             return
-        measures = target.measures(replica) if target else Measures()
-        answer(message_of(DistanceMessage, measures, id=number, slug=slug))
+        answer(shape_messages.verdict_message(target, replica, number, slug))
         if not request.residuals or self._inbox.outdated:
             return
         if target is None or not isinstance(target.shape, Mesh) or not isinstance(replica, Mesh):

@@ -1,19 +1,34 @@
-"""Messages of shapes: meshes, residuals, drawings, and what is known of a reference."""
+"""Messages of shapes: meshes, residuals, drawings, what the judge says of them, and what is known of a reference."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import shapely
 
+from shapewright.judging.target import Measures, Target
+from shapewright.judging.verdict import Evidence
 from shapewright.references.collection import Reference
-from shapewright.shapes import Drawing, Mesh
+from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.studio.bench.residual_colours import LIMIT, Residual
 from shapewright.studio.bench.workshop import Built
-from shapewright.studio.wire.answers import DrawingMessage, Extent, MeshHead, ResidualsHead, binary
+from shapewright.studio.wire.answers import (
+    DrawingMessage,
+    Extent,
+    MeshHead,
+    ResidualsHead,
+    VerdictMessage,
+    binary,
+)
 from shapewright.studio.wire.detail import About, Units
+from shapewright.studio.wire.judgement import Piece
+from shapewright.studio.wire.values import Slug, message_of
 
+SIDES = ("missing", "surplus")
+MOST = 8
+"""Regions of either kind in a message: the largest."""
 _DIGITS = 5
 _LEAST = 1e-7  # of the area that a path shows; two equal edges leave slivers of rounding between them
 
@@ -64,6 +79,17 @@ def path(geometry: Any) -> str:
     areas = [part for part in shapely.get_parts(geometry) if part.area > _LEAST]
     rings = (np.round(shapely.get_coordinates(ring), _DIGITS) for ring in shapely.get_rings(areas))
     return "".join("M" + "L".join(f"{x:g} {y:g}" for x, y in ring[:-1].tolist()) + "Z" for ring in rings)
+
+
+def verdict_message(target: Target | None, replica: Shape, number: int, slug: Slug) -> VerdictMessage:
+    """What can be measured of a replica, and where it differs; whoever knows the cuts says its grade.
+
+    target: None for a reference that cannot be read. number: of the evaluation.
+    """
+    evidence = target.evidence(replica) if target else Evidence(math.nan)
+    measures = target.measures(replica, fidelity=evidence.value) if target else Measures()
+    sides = {side: [message_of(Piece, region) for region in getattr(evidence, side)[:MOST]] for side in SIDES}
+    return message_of(VerdictMessage, measures, id=number, slug=slug, measures=measures.by_name(), **sides)
 
 
 def mesh_message(mesh: Mesh, **head: Any) -> bytes:

@@ -1,4 +1,4 @@
-"""A replica for every reference, shape by shape: pictures of all first, then their distances."""
+"""A replica for every reference, shape by shape: pictures of all first, then what is measured."""
 
 from __future__ import annotations
 
@@ -58,8 +58,9 @@ class Sweep:
                 return
             target = self.target(slug)
             if target and again.build.shape is not None:
-                distance, _ = target.nearest(again.build.shape.normalised())
-                self.send(Measured(sweep=self.number, slug=slug, distance=distance), b"")
+                replica = again.build.shape.normalised()
+                distance, fidelity = target.nearest(replica)[0], target.evidence(replica).value
+                self.send(Measured(sweep=self.number, slug=slug, fidelity=fidelity, distance=distance), b"")
             yield
         self.send(SweepEnded(sweep=self.number, given_up=False), b"")
 

@@ -12,8 +12,9 @@ from shapewright.studio.wire.changes import ChosenSettings
 
 SHAPE_SECONDS = 5.0
 """Seconds that one shape may take in the studio: half of what a fit on the command line gives it, because one waits."""
-_FIT = ("samples", "epochs", "refine", "rounds", "seed", "threshold", "vif", "shape_seconds")
-_KEPT = (*groups()["building"], *groups()["judging"], "seed", "workers")
+_JUDGE = ("judge", "replicated", "close", "threshold", "vif")
+_FIT = ("samples", "epochs", "refine", "facing", "rounds", "seed", *_JUDGE, "shape_seconds")
+_KEPT = (*groups()["building"], *(name for name in groups()["judging"] if name != "judge"), "seed", "workers")
 """The settings that stay when another preset is chosen: no preset says anything about them."""
 
 

@@ -19,8 +19,8 @@ from shapewright.studio.session.history import comparison, source_of
 from shapewright.studio.session.session import Session
 from shapewright.studio.wire import requests
 from shapewright.studio.wire.changes import ChosenSettings
-from shapewright.studio.wire.collection import Mark
 from shapewright.studio.wire.detail import About
+from shapewright.studio.wire.judgement import Mark
 from shapewright.studio.wire.values import Slug, encode
 from shapewright.studio.wire.work import Comparison
 

@@ -12,10 +12,9 @@ from shapewright.studio.bench.client import BenchProcess
 from shapewright.studio.bench.messages import First, Live, LiveMessage, Load, News, Pictures, References, SweepOrder
 from shapewright.studio.project.authored import Authored
 from shapewright.studio.project.workspace import Project
-from shapewright.studio.session.board import tint
 from shapewright.studio.session.display import Display
 from shapewright.studio.session.pages import Pages
-from shapewright.studio.wire.answers import DistanceMessage
+from shapewright.studio.wire.answers import VerdictMessage
 from shapewright.studio.wire.collection import Stage
 from shapewright.studio.wire.requests import Evaluate
 from shapewright.studio.wire.values import Slug, Values
@@ -86,7 +85,8 @@ class BenchLink:
         self.process.ask(SweepOrder(sweep=number, items=dict(items)))
 
     def _answered(self, page: int, message: LiveMessage | None, payload: bytes) -> None:
-        if isinstance(message, DistanceMessage):
-            metric, distance = self._display.board.metric, message.distance
-            message = replace(message, colour=tint(distance, metric), compatible=metric.accepts(distance))
+        if isinstance(message, VerdictMessage):
+            standard, fidelity, distance = self._display.board.standard, message.fidelity, message.distance
+            message = replace(message, **standard.judged(fidelity, distance))
+            message = replace(message, colour=standard.colour(message.grade, fidelity, distance))
         self._pages.send(page, payload if message is None else message)

@@ -2,28 +2,36 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from msgspec import structs
+from msgspec import convert, structs
 
 from shapewright.building.outcomes import Failure
-from shapewright.judging.paper import Metric, light_field_metric
+from shapewright.judging.verdict import Grade
 from shapewright.parameters import Parameters
-from shapewright.report.scale import colour
 from shapewright.runs.folder import read_record
+from shapewright.runs.result import MEASURES, grade_in
 from shapewright.settings import Settings
 from shapewright.studio.project.listing import Listing
 from shapewright.studio.project.picture_store import Pictures
+from shapewright.studio.session.standard import Standard
 from shapewright.studio.wire.collection import Collection, Group, Skipped, Stage, Tile
+from shapewright.studio.wire.judgement import Counts, Measures, Piece, Pose
 from shapewright.studio.wire.problems import Problem, together
 from shapewright.studio.wire.values import Address, Slug, message_of
 
+if TYPE_CHECKING:
+    from shapewright.feedback.case import CauseKind
+
 Record = Mapping[str, Any]
-_RECORDED = ("distance", "iou", "chamfer", "compatible", "group", "parameters", "active", "at_limit")
-"""What the state of a reference takes from its entry in a run's record."""
+_POSE: CauseKind = "another pose"
+_POSED = ("turned", "on_its_head", "mirrored")
+_RECORDED = ("distance", "compatible", "group", "parameters", "active", "at_limit")
+"""What the state of a reference takes from its entry in a run's record as it is."""
 
 
 @dataclass(frozen=True)
@@ -34,10 +42,14 @@ class ReferenceState:
     name: str
     reference: Address | None = None
     replica: Address | None = None
+    fidelity: float | None = None
     distance: float | None = None
-    iou: float | None = None  # of the silhouettes
-    chamfer: float | None = None  # distance of the surfaces or outlines
+    grade: Grade = "different"
     compatible: bool = False
+    measures: Measures = field(default_factory=dict)
+    missing: list[Piece] = field(default_factory=list)
+    surplus: list[Piece] = field(default_factory=list)
+    pose: Pose | None = None
     group: int | None = None
     stage: Stage = "none"
     stale: bool = False
@@ -47,9 +59,12 @@ class ReferenceState:
     at_limit: list[str] = field(default_factory=list)
     problem: Problem | None = None
 
-    def tile(self, metric: Metric) -> Tile:
+    def colour(self, standard: Standard) -> str | None:
+        return standard.colour(self.grade, self.fidelity, self.distance)
+
+    def tile(self, standard: Standard) -> Tile:
         """As the page gets it."""
-        return message_of(Tile, self, colour=tint(self.distance, metric))
+        return message_of(Tile, self, colour=self.colour(standard))
 
 
 @dataclass(frozen=True)
@@ -59,28 +74,32 @@ class Board:
     references: Mapping[Slug, ReferenceState] = field(default_factory=dict)  # by slug, in the order of the listing
     groups: tuple[Group, ...] = ()  # of the misfits
     run: str | None = None  # name of the run that is shown
-    metric: Metric = field(default_factory=lambda: light_field_metric(Settings.threshold))
+    standard: Standard = field(default_factory=lambda: Standard.of(Settings(), 3))
     skipped: Mapping[str, str] = field(default_factory=dict)  # files that cannot be read, and why
 
     def collection(self) -> Collection:
         """As the page gets it."""
-        tiles = [state.tile(self.metric) for state in self.references.values()]
+        tiles = [state.tile(self.standard) for state in self.references.values()]
+        settings, metric = self.standard.settings, self.standard.metric
         return Collection(
             run=self.run,
-            threshold=self.metric.threshold,
-            measure=self.metric.name,
-            criterion=self.metric.criterion,
+            judge=settings.judge,
+            replicated=settings.replicated,
+            close=settings.close,
+            threshold=metric.threshold,
+            measure=metric.name,
+            criterion=metric.criterion,
             count=len(tiles),
-            compatible=sum(tile.compatible for tile in tiles),
+            counts=counted((tile.grade, tile.compatible) for tile in tiles),
             tiles=tiles,
             groups=list(self.groups),
             skipped=[Skipped(path=path, reason=reason) for path, reason in self.skipped.items()],
         )
 
     def with_reference(self, slug: Slug, **changes: Any) -> Board:
-        """With a reference changed; compatible follows the distance."""
+        """With a reference changed; its grade follows what was measured, fidelity and distance together."""
         if "distance" in changes:
-            changes["compatible"] = self.metric.accepts(changes["distance"])
+            changes |= self.standard.judged(changes["fidelity"], changes["distance"])
         changed = replace(self.references[slug], **changes)
         return replace(self, references={**self.references, slug: changed})
 
@@ -88,6 +107,18 @@ class Board:
         """With every reference changed."""
         changed = {slug: replace(state, **changes) for slug, state in self.references.items()}
         return replace(self, references=changed)
+
+    def judged_by(self, standard: Standard) -> Board:
+        """With other cuts, or another judge, and so with other grades."""
+        states = self.references.items()
+        graded = {slug: replace(one, grade=standard.grade(one.fidelity, one.compatible)) for slug, one in states}
+        return replace(self, references=graded, standard=standard)
+
+    def explained_by(self, explanation: Record) -> Board:
+        """With what an explanation finds of how the references stand."""
+        told = _poses(explanation)
+        states = self.references.items()
+        return replace(self, references={slug: replace(one, pose=told.get(one.name)) for slug, one in states})
 
     def without(self, slug: Slug, path: str, reason: str) -> Board:
         """Without a reference that cannot be read."""
@@ -109,37 +140,49 @@ def lay_out(
     kept: Mapping[str, str | None],
     run: Path | None,
     previous: Path | None,
-    metric: Metric,
+    standard: Standard,
+    chosen: Mapping[str, Any] | None = None,
 ) -> Board:
     """The board of a listing, as far as a run knows its references. Raises RunError.
 
     kept: addresses of the references' pictures, None where there is none yet.
     run: its folder.
     previous: the folder of the run before.
-    metric: of a board without a run.
+    standard: of a board without a run.
+    chosen: cuts that the run is judged by in place of its own.
     """
+    record = read_record(run) if run else None
+    if record:
+        standard = Standard.of_run(record, chosen)
     earlier = read_record(previous)["references"] if previous else []
-    before = {entry["name"]: entry["distance"] for entry in earlier}
+    before = {entry["name"]: standard.value(entry) for entry in earlier}
     references = {
         slug: ReferenceState(slug, source.name, reference=kept.get(slug), previous=before.get(source.name))
         for slug, source in listed.sources.items()
     }
     skipped = {str(path): reason for path, reason in listed.skipped.items()}
-    if run is None:
-        return Board(references, metric=metric, skipped=skipped)
-    record = read_record(run)
+    if run is None or record is None:
+        return Board(references, standard=standard, skipped=skipped)
     slugs = {state.name: slug for slug, state in references.items()}
     for entry in record["references"]:
         if entry["name"] in slugs:
             slug = slugs[entry["name"]]
             references[slug] = _filled(references[slug], entry, pictures, run)
     groups = tuple(_groups(record["groups"], slugs))
-    return Board(references, groups, run.name, Metric.of_record(record), skipped | record["collection"]["skipped"])
+    board = Board(references, groups, run.name, standard, skipped | record["collection"]["skipped"])
+    return board.judged_by(standard) if chosen else board
 
 
-def tint(distance: float | None, metric: Metric) -> str | None:
-    """The colour of a distance, None for none."""
-    return None if distance is None else colour(distance, metric.threshold, metric.far / metric.threshold)
+def counted(grades: Iterable[tuple[Grade, bool]]) -> Counts:
+    """How many there are of each. grades: of references, with whether they are compatible."""
+    pairs = list(grades)
+    found = Counter(grade for grade, _ in pairs)
+    return Counts(
+        replicated=found["replicated"],
+        close=found["close"],
+        different=found["different"],
+        compatible=sum(compatible for _, compatible in pairs),
+    )
 
 
 def _filled(state: ReferenceState, entry: Record, pictures: Pictures, folder: Path) -> ReferenceState:
@@ -150,8 +193,23 @@ def _filled(state: ReferenceState, entry: Record, pictures: Pictures, folder: Pa
         replica=pictures.add_file(address["replica"]),
         stage="trained",
         problem=_problem(entry["error"], state.slug) if entry["error"] else None,
+        fidelity=entry.get("fidelity"),
+        grade=grade_in(entry),
+        measures={name: entry.get(name) for name in MEASURES},
+        missing=convert(entry.get("missing", []), list[Piece]),
+        surplus=convert(entry.get("surplus", []), list[Piece]),
         **{field: entry[field] for field in _RECORDED},
     )
+
+
+def _poses(explanation: Record) -> dict[str, Pose]:
+    """By name of the reference, of those that stand another way than their replicas."""
+    told = {}
+    for name, found in explanation.get("references", {}).items():
+        evidence = next((cause["evidence"] for cause in found.get("causes", ()) if cause["kind"] == _POSE), None)
+        if evidence:
+            told[name] = Pose(text=evidence["words"], **{key: evidence[key] for key in _POSED})
+    return told
 
 
 def _problem(error: str, slug: Slug) -> Problem:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from shapewright.judging.paper import Metric
-from shapewright.runs.folder import RunError, read_record
+from shapewright.runs.folder import EXPLANATION, RunError, read_json, read_record
+from shapewright.settings import Settings
 from shapewright.studio.bench.messages import Drawn, Measured, SweepEnded, Swept, Unreadable
 from shapewright.studio.project.listing import Listing, kept_picture, listing
 from shapewright.studio.project.picture_store import Pictures
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.session.board import Board, lay_out
 from shapewright.studio.session.pages import Pages
+from shapewright.studio.session.standard import CUTS, Standard
 from shapewright.studio.wire.changes import CollectionChanged, TilesChanged
 from shapewright.studio.wire.collection import Stage
 from shapewright.studio.wire.problems import Problem
@@ -47,6 +49,7 @@ class Display:
         self.board = Board()
         self.listed = Listing({}, {})
         self.run: Path | None = None
+        self._chosen: Mapping[str, Any] | None = None
         self.swept = asyncio.Event()
         self._sweep = 0
         self._stage: Stage = "carried"
@@ -74,20 +77,45 @@ class Display:
                 return folder
         return None
 
-    def show(self, run: Path | None, metric: Metric) -> None:
-        """Show a run, or references alone, to the pages."""
+    def show(self, run: Path | None, standard: Standard) -> None:
+        """Show a run, or references alone, to the pages. standard: of references without a run."""
         self.stop_sweep()
         self.run = run
-        self._put_up(self.laid_out(run, metric))
+        self._put_up(self.laid_out(run, standard, self._chosen).explained_by(self.explanation))
         self._forget_pictures()
         self._report_problems()
 
-    def laid_out(self, run: Path | None, metric: Metric) -> Board:
-        """The board that ``show`` puts up, without putting it up. Raises RunError."""
+    def judge_by(self, settings: Settings) -> None:
+        """Take the judge and its cuts from settings from now on, and not from the run that is shown."""
+        self._chosen = {name: getattr(settings, name) for name in CUTS}
+        if self.run:
+            self._put_up(self.board.judged_by(Standard.of_run(read_record(self.run), self._chosen)))
+        else:
+            self._put_up(self.board.judged_by(replace(self.board.standard, settings=settings)))
+
+    def explain(self) -> None:
+        """The run that is shown has an explanation now."""
+        self._put_up(self.board.explained_by(self.explanation))
+
+    @property
+    def explanation(self) -> Mapping[str, Any]:
+        """Of the run that is shown, as the run's folder has it; empty where there is none that can be read."""
+        try:
+            content: Any = read_json(self.run / EXPLANATION) if self.run else {}
+        except (OSError, ValueError):
+            return {}
+        return content if isinstance(content, dict) else {}
+
+    def laid_out(self, run: Path | None, standard: Standard, chosen: Mapping[str, Any] | None = None) -> Board:
+        """The board of a run. Raises RunError.
+
+        standard: of references without a run.
+        chosen: cuts that the run is judged by in place of its own.
+        """
         runs = self.project.runs
         before = runs[runs.index(run) - 1] if run in runs[1:] else None
         kept = {slug: self._kept(slug) for slug in self.listed.sources}
-        board = lay_out(self.listed, self.pictures, kept, run, before, metric)
+        board = lay_out(self.listed, self.pictures, kept, run, before, standard, chosen)
         for slug, (path, reason) in self._unreadable.items():
             board = board.without(slug, path, reason)
         return board
@@ -142,7 +170,7 @@ class Display:
             case SweepEnded():
                 self._left.clear()
             case Measured():
-                self._change(message.slug, distance=message.distance)
+                self._change(message.slug, fidelity=message.fidelity, distance=message.distance)
             case Swept():
                 self._take_replica(message, payload)
                 self._left.discard(message.slug)
@@ -151,7 +179,8 @@ class Display:
 
     def _take_replica(self, message: Swept, payload: bytes) -> None:
         if message.problem:
-            self._change(message.slug, problem=message.problem.of(message.slug), stale=True, distance=None)
+            problem = message.problem.of(message.slug)
+            self._change(message.slug, problem=problem, stale=True, fidelity=None, distance=None)
             return
         self._change(
             message.slug,
@@ -159,7 +188,11 @@ class Display:
             active=message.active,
             at_limit=message.at_limit,
             replica=self.pictures.add(payload),
+            fidelity=None,
             distance=None,
+            measures={},
+            missing=[],
+            surplus=[],
             stage=self._stage,
             stale=False,
             problem=None,
@@ -176,7 +209,7 @@ class Display:
     def _flush(self) -> None:
         states = [self.board.references[slug] for slug in sorted(self._dirty) if slug in self.board.references]
         self._dirty.clear()
-        self.pages.publish(TilesChanged(tiles=[state.tile(self.board.metric) for state in states]))
+        self.pages.publish(TilesChanged(tiles=[state.tile(self.board.standard) for state in states]))
         self._report_problems()
 
     def _report_problems(self) -> None:

@@ -10,11 +10,12 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from shapewright.judging.paper import Metric
 from shapewright.runs.changes import Move as RunMove
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import EXPLANATION, RECORD, RunError, read_record
-from shapewright.studio.session.board import tint
+from shapewright.runs.result import grade_in, judge_in
+from shapewright.studio.session.board import counted
+from shapewright.studio.session.standard import Standard
 from shapewright.studio.wire.values import Slug, message_of
 from shapewright.studio.wire.work import Comparison, DiffLine, Move, Run
 
@@ -41,7 +42,8 @@ def _summary(folder: Path, stamp: int) -> Run:
         run=folder.name,
         created=record["created"],
         references=len(record["references"]),
-        compatible=sum(entry["compatible"] for entry in record["references"]),
+        judge=judge_in(record),
+        counts=counted((grade_in(entry), entry["compatible"]) for entry in record["references"]),
         groups=len(record["groups"]),
         digest=record["procedure"]["digest"],
         procedure=record["procedure"]["name"],
@@ -71,9 +73,19 @@ def comparison(
     changes = compare(old, new)
     thens = {entry["name"]: entry for entry in old["references"]}
     nows = {entry["name"]: entry for entry in new["references"]}
+    standards = [Standard.of_run(record).by(changes.judge) for record in (old, new)]
 
     def picture(folder: Path, entry: Mapping[str, Any], side: str) -> str | None:
         return address(folder / "thumbnails" / f"{entry['slug']}.{side}.png")
+
+    def judged(name: str) -> dict[str, Any]:
+        fields: dict[str, Any] = {}
+        for when, entry, standard in zip(("before", "after"), (thens[name], nows[name]), standards, strict=True):
+            paper = changes.judge == "paper"
+            grade = standard.grade(None, entry["compatible"]) if paper else grade_in(entry)
+            fields[f"grade_{when}"] = grade
+            fields[f"colour_{when}"] = standard.colour(grade, entry.get("fidelity"), entry["distance"])
+        return fields
 
     def pictured(moves: Iterable[RunMove]) -> list[Move]:
         return [
@@ -81,11 +93,10 @@ def comparison(
                 Move,
                 move,
                 slug=slugs.get(move.name),
-                colour_before=tint(thens[move.name]["distance"], Metric.of_record(old)),
-                colour_after=tint(nows[move.name]["distance"], Metric.of_record(new)),
                 reference=picture(after, nows[move.name], "reference"),
                 replica_before=picture(before, thens[move.name], "replica"),
                 replica_after=picture(after, nows[move.name], "replica"),
+                **judged(move.name),
             )
             for move in moves
         ]
@@ -94,6 +105,7 @@ def comparison(
     return Comparison(
         before=runs[before.name],
         after=runs[after.name],
+        judge=changes.judge,
         **moved,
         same=len(nows.keys() & thens.keys()) - sum(map(len, moved.values())),
         added=list(changes.added),

@@ -9,10 +9,9 @@ from urllib.parse import quote
 
 import msgspec
 
-from shapewright.runs.folder import EXPLANATION, read_json, read_record
+from shapewright.runs.folder import read_json, read_record
 from shapewright.studio.jobs.fit_job import PREDICTIONS
 from shapewright.studio.project.workspace import Missing
-from shapewright.studio.session.board import tint
 from shapewright.studio.session.history import source_of
 from shapewright.studio.session.session import Session
 from shapewright.studio.wire.collection import Parameter
@@ -40,7 +39,7 @@ def reference(session: Session, slug: Slug, about: About | None) -> Reference:
         triangles=about.triangles if about else None,
         notes=about.notes if about else [],
         units=about.units if about else None,
-        colour=tint(state.distance, session.display.board.metric),
+        colour=state.colour(session.display.board.standard),
         **{key: _known(predicted.get(key), names) for key in ("predicted", "spread", "likelihood")},
         explanation=explanation(session)["references"].get(slug) if session.explained else None,
     )
@@ -52,7 +51,7 @@ def run_detail(session: Session, name: str) -> RunDetail:
     record = read_record(folder)
     return RunDetail(
         run=next(run for run in session.runs() if run.run == name),
-        collection=session.display.laid_out(folder, session.metric).collection(),
+        collection=session.display.laid_out(folder, session.standard).collection(),
         source=source_of(folder),
         parameters=msgspec.convert(record["procedure"]["parameters"], list[Parameter]),
         settings=record["settings"],
@@ -67,7 +66,7 @@ def explanation(session: Session) -> Explanation:
     run, slugs = session.display.run, session.display.slugs()
     if run is None or not session.explained:
         raise Missing("there is no explanation of this run yet")
-    record = _read(run, EXPLANATION)
+    record = session.display.explanation
     named = {slugs[name]: of_one for name, of_one in record.get("references", {}).items() if name in slugs}
     suggestions = [_suggestion(given, run, slugs) for given in record.get("suggestions", [])]
     summary = [{**cause, **_by_slug(cause, slugs)} for cause in record.get("summary", [])]

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+from dataclasses import replace
 from functools import partial
 from importlib.metadata import version
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Any
 
-from shapewright.judging.paper import Metric, light_field_metric, vif_metric
 from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import EXPLANATION, RunError
-from shapewright.runs.marks import pairs, replace_pairs
+from shapewright.runs.marks import replace_pairs
+from shapewright.settings import Settings
 from shapewright.storage import cache_folder
 from shapewright.studio.bench import messages
 from shapewright.studio.bench.client import BenchError
@@ -23,39 +24,18 @@ from shapewright.studio.session.bench_link import BenchLink
 from shapewright.studio.session.display import Display
 from shapewright.studio.session.history import summaries
 from shapewright.studio.session.job_list import JobList, Refused
+from shapewright.studio.session.marking import cuts, learned, marking
 from shapewright.studio.session.pages import Page, Pages
+from shapewright.studio.session.problem_list import ProblemList
+from shapewright.studio.session.standard import CUTS, Standard
 from shapewright.studio.wire import changes
-from shapewright.studio.wire.collection import Mark, Procedure
+from shapewright.studio.wire.collection import Procedure
+from shapewright.studio.wire.judgement import Learned, Mark, Marking
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.work import Job, Run
 
 _PATIENCE = 2.0
 """Seconds for which a fit after a save waits until the replicas of the new version are shown."""
-Origin: TypeAlias = Literal["bench", "project", "procedure", "references", "fit", "explain", "export", "shapes"]
-"""Where problems come from, the worst first."""
-
-
-class ProblemList:
-    """The problems of a project; pages are sent every change."""
-
-    def __init__(self, pages: Pages) -> None:
-        self._pages = pages
-        self._problems: dict[Origin, list[Problem]] = {}
-
-    @property
-    def all(self) -> list[Problem]:
-        """The worst first."""
-        return [problem for origin in get_args(Origin) for problem in self._problems.get(origin, [])]
-
-    def note(self, origin: Origin, problems: list[Problem]) -> bool:
-        """Replace the problems of one origin without a message to the pages; returns whether they are others now."""
-        before, self._problems[origin] = self._problems.get(origin, []), problems
-        return before != problems
-
-    def report(self, origin: Origin, problems: list[Problem]) -> None:
-        """Replace the problems of one origin."""
-        if self.note(origin, problems):
-            self._pages.publish(changes.ProblemsChanged(problems=self.all))
 
 
 class Session:
@@ -73,7 +53,11 @@ class Session:
     async def run(self) -> None:
         """Open the project, then serve until cancelled; ends all processes at the end."""
         self._list_references()
-        self.display.show(self.display.newest(), self.metric)
+        self.display.show(self.display.newest(), self.standard)
+        settings = self.preferences.settings
+        usual = (settings.replicated, settings.close) == (Settings.replicated, Settings.close)
+        if self._learned() and usual:
+            self._follow_marks()
         self._read_source(saved=False)
         try:
             async with asyncio.TaskGroup() as group:
@@ -108,7 +92,7 @@ class Session:
             jobs=self.jobs.jobs(),
             runs=self.runs(),
             settings=self.preferences.message(),
-            marks=self.marks(),
+            marking=self.marking(),
             explanation=self.explained,
             problems=self.problems.all,
         )
@@ -122,16 +106,20 @@ class Session:
         """Whether the run that is shown has an explanation."""
         return self.display.run is not None and (self.display.run / EXPLANATION).is_file()
 
-    def marks(self) -> list[Mark]:
-        """The pairs that were marked, of references that are there."""
-        slugs = self.display.slugs()
+    def marking(self) -> Marking:
+        """The pairs that were marked, of references that are there; what they say, and what to mark next."""
+        shown = self.display.board.standard.settings
+        return marking(self.project.folder, self.display.run, self.display.slugs(), self.preferences.settings, shown)
+
+    def _learned(self) -> Learned | None:
+        """What the marks say. A file of marks that cannot be read is a problem of the project."""
         try:
-            judged = pairs(self.project.folder)
+            found = learned(self.project.folder, self.display.run, self.preferences.settings.judge)
         except RunError as error:
-            self.problems.note("project", [Problem("project", str(error))])
-            return []
-        self.problems.note("project", [])
-        return [Mark(a=slugs[a], b=slugs[b], same=same) for a, b, same in judged if a in slugs and b in slugs]
+            self.problems.report("project", [Problem("project", str(error))])
+            return None
+        self.problems.report("project", [])
+        return found
 
     def _procedure(self) -> Procedure:
         runs = self.runs()
@@ -157,17 +145,39 @@ class Session:
     def change_preferences(self, given: dict[str, Any]) -> changes.ChosenSettings:
         """Raises ValueError for an entry that cannot be."""
         before, self.preferences = self.preferences, self.preferences.changed(given)
-        if self.preferences.settings.seed != before.settings.seed:
-            self.bench.list_references(self.preferences.settings)
-        self.pages.publish(changes.SettingsChanged(settings=self.preferences.message()))
+        settings = self.preferences.settings
+        if settings.seed != before.settings.seed:
+            self.bench.list_references(settings)
+        self._settings_changed(before.settings)
         return self.preferences.message()
 
+    def _settings_changed(self, before: Settings) -> None:
+        """Tell the pages; with another judge or other cuts the collection has other grades at once."""
+        settings = self.preferences.settings
+        self.pages.publish(changes.SettingsChanged(settings=self.preferences.message()))
+        if any(getattr(settings, name) != getattr(before, name) for name in CUTS):
+            self.display.judge_by(settings)
+            self.pages.publish(changes.MarksChanged(marking=self.marking()))
+
+    def _follow_marks(self) -> None:
+        """Move the cut to where the marks ask for it."""
+        before = self.preferences.settings
+        cut = cuts(self._learned(), before.judge)
+        self.preferences = replace(self.preferences, settings=replace(before, **cut))
+        self._settings_changed(before)
+
     def set_marks(self, marks: list[Mark]) -> None:
-        """Replace the marks of the references that are there, all of whose slugs are known. Raises RunError."""
+        """Replace the marks of the references that are there, all of whose slugs are known; the cut follows them.
+
+        Raises RunError.
+        """
         names = {slug: state.name for slug, state in self.display.board.references.items()}
         wanted = [(names[mark.a], names[mark.b], mark.same) for mark in marks]
+        said = self._learned()
         replace_pairs(self.project.folder, wanted, set(names.values()), self.display.run)
-        self.pages.publish(changes.MarksChanged(marks=self.marks()))
+        self.pages.publish(changes.MarksChanged(marking=self.marking()))
+        if said != self._learned():
+            self._follow_marks()
 
     async def fit(self, fresh: bool = False) -> None:
         """Start a fit; one that runs is ended first. Raises Refused."""
@@ -186,7 +196,7 @@ class Session:
     def references_changed(self) -> None:
         """Files came, went or changed among the references."""
         self._list_references()
-        self.display.show(self.display.run or self.display.newest(), self.metric)
+        self.display.show(self.display.run or self.display.newest(), self.standard)
         self.bench.list_references(self.preferences.settings)
 
     def _list_references(self) -> None:
@@ -238,7 +248,7 @@ class Session:
         fitted = None if self.authored.helper else self.display.newest(self.authored.digest)
         if fitted:
             if fitted != self.display.run or self._stale:
-                self.display.show(fitted, self.metric)
+                self.display.show(fitted, self.standard)
         else:
             self.bench.sweep("carried", self.display.parameters)
         self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
@@ -258,16 +268,17 @@ class Session:
     def _job_ended(self, job: Job) -> None:
         self.problems.report(job.kind, [job.problem] if job.problem else [])
         if job.kind == "fit" and job.state == "done":
-            self.display.show(self.display.newest(), self.metric)
+            self.display.show(self.display.newest(), self.standard)
             self.bench.sweep("carried", {})
             self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
+        if job.kind == "explain" and job.state == "done":
+            self.display.explain()
         if job.kind in ("fit", "explain"):
             self.pages.publish(changes.RunsChanged(runs=self.runs()))
+            self.pages.publish(changes.MarksChanged(marking=self.marking()))
             self.pages.publish(changes.ExplanationChanged(explanation=self.explained))
 
     @property
-    def metric(self) -> Metric:
-        """What the next fit measures by."""
-        settings = self.preferences.settings
-        solid = self.display.listed.dimension == 3
-        return light_field_metric(settings.threshold) if solid else vif_metric(settings.vif)
+    def standard(self) -> Standard:
+        """What the next fit judges by."""
+        return Standard.of(self.preferences.settings, self.display.listed.dimension)

@@ -1,4 +1,4 @@
-"""Answers of live evaluation: shapes, and how far they are from their reference. Meshes travel in binary messages."""
+"""Answers of live evaluation: shapes, and what the judge says of them. Meshes travel in binary messages."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from msgspec import UNSET, Meta, Struct, UnsetType, field
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
+from shapewright.studio.wire.judgement import Grade, Measures, Piece
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Message, Slug, Values, encode
 
@@ -72,16 +73,19 @@ class DrawingMessage(ShapeMessage, frozen=True, kw_only=True, tag="drawing"):
     excess: str | None  # what the replica covers and the reference does not
 
 
-class DistanceMessage(Message, frozen=True, kw_only=True, tag="distance"):
-    """How far a replica is from its reference; null where that cannot be measured."""
+class VerdictMessage(Message, frozen=True, kw_only=True, tag="verdict"):
+    """What the judge says of a replica, as ``Judged`` has it."""
 
     id: int
     slug: Slug | None
-    distance: float | None
-    iou: float | None
-    chamfer: float | None
-    colour: str | None = None
+    fidelity: float | None  # null where it cannot be measured
+    distance: float | None  # null where it cannot be measured
+    measures: Measures
+    missing: list[Piece]  # of the reference; the largest first
+    surplus: list[Piece]  # of the replica; the largest first
+    grade: Grade = "different"
     compatible: bool = False
+    colour: str | None = None
 
 
 class FailedMessage(Message, frozen=True, kw_only=True, tag="failed"):

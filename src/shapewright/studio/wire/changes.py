@@ -6,8 +6,9 @@ from typing import Annotated, Literal, TypeAlias
 
 from msgspec import Meta, Struct
 
-from shapewright.settings import Preset, Refine
-from shapewright.studio.wire.collection import Collection, Mark, Procedure, Tile
+from shapewright.settings import Facing, Preset, Refine
+from shapewright.studio.wire.collection import Collection, Procedure, Tile
+from shapewright.studio.wire.judgement import Judge, Marking
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Message
 from shapewright.studio.wire.work import Job, JobKind, Run
@@ -33,8 +34,12 @@ class ChosenSettings(Struct, frozen=True, kw_only=True):
     samples: int
     epochs: int
     refine: Refine
+    facing: Facing
     rounds: int
     seed: int
+    judge: Judge
+    replicated: float
+    close: float
     threshold: float
     vif: float
     shape_seconds: float
@@ -52,7 +57,7 @@ class State(Message, frozen=True, kw_only=True, tag="state"):
     jobs: dict[JobKind, Job]
     runs: list[Run]  # the oldest first
     settings: ChosenSettings
-    marks: list[Mark]
+    marking: Marking
     explanation: bool  # the run that is shown has one
     problems: list[Problem]  # of the whole project, the worst first; empty when all is well
 
@@ -88,9 +93,9 @@ class RunsChanged(Message, frozen=True, kw_only=True, tag="runs"):
 
 
 class MarksChanged(Message, frozen=True, kw_only=True, tag="marks"):
-    """Replaces ``State.marks``."""
+    """Replaces ``State.marking``."""
 
-    marks: list[Mark]
+    marking: Marking
 
 
 class SettingsChanged(Message, frozen=True, kw_only=True, tag="settings"):

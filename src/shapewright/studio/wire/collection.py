@@ -6,6 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from msgspec import Meta, Struct
 
+from shapewright.studio.wire.judgement import Counts, Judge, Judged, Pose
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Address, Slug, Value
 
@@ -13,26 +14,24 @@ Stage: TypeAlias = Annotated[Literal["none", "carried", "early", "predicted", "t
 """How far the replica that is shown is from a finished fit."""
 
 
-class Tile(Struct, frozen=True, kw_only=True):
+class Tile(Judged, frozen=True, kw_only=True):
     """One reference and its replica."""
 
     slug: Slug
     name: str  # what people read
     reference: Address | None  # its picture, square on transparent; null until it is drawn
     replica: Address | None  # picture of the replica; null until there is one
-    distance: float | None  # null until it is measured, which may be a moment after the replica is shown
-    colour: str | None  # of the distance: green at 0, yellow at the threshold, red far beyond it
-    compatible: bool
     group: int | None  # index into the collection's groups; while a fit runs, these are those of the run before
     stage: Stage
     stale: bool  # the replica is of an older version of the procedure
-    previous: float | None  # distance in the run before
+    previous: float | None  # fidelity in the run before; by the paper's judge its distance
     at_limit: list[str]  # parameters at an end of their Range
+    pose: Pose | None  # null where the reference stands as its replica, or is not explained
     problem: Problem | None
 
 
 class Group(Struct, frozen=True, kw_only=True):
-    """Incompatible references that look alike."""
+    """References that are not replicated and look alike."""
 
     representative: Slug | None  # the nearest to the group's centre; null when none of its members is there any more
     members: list[Slug]  # the nearest to the centre first
@@ -49,11 +48,14 @@ class Collection(Struct, frozen=True, kw_only=True):
     """All references."""
 
     run: str | None  # the run that is shown; null before the first
-    threshold: float
+    judge: Judge  # that gives the grades
+    replicated: float  # the least fidelity of a replicated reference
+    close: float  # the least fidelity of a close one
+    threshold: float  # the largest distance of a compatible one
     measure: str  # what distances are
     criterion: str  # when a replica is compatible, in words
-    count: int
-    compatible: int
+    count: int  # of all references
+    counts: Counts
     tiles: list[Tile]  # in natural order of names
     groups: list[Group]  # the largest first
     skipped: list[Skipped]
@@ -81,11 +83,3 @@ class Procedure(Struct, frozen=True, kw_only=True):
     digest: str  # of the text on disk
     fitted: str | None  # digest of the version that the newest fit used
     parameters: list[Parameter]
-
-
-class Mark(Struct, frozen=True, kw_only=True):
-    """Whether a person finds two references the same; where ``a`` is ``b``, the reference and its own replica."""
-
-    a: Slug
-    b: Slug
-    same: bool

@@ -11,6 +11,7 @@ from typing import Any, Literal, NotRequired, TypedDict
 from msgspec import Struct
 
 from shapewright.studio.wire.collection import Stage
+from shapewright.studio.wire.judgement import Judged, Measures, Piece, Pose
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Address, Slug, Values, Vector
 
@@ -58,6 +59,7 @@ class Cause(TypedDict):
     kind: str
     text: str
     evidence: Any
+    picture: NotRequired[str]  # PNG in base64, where words are not enough
 
 
 class ReferenceExplanation(TypedDict):
@@ -99,7 +101,7 @@ class Explanation(TypedDict):
     suggestions: list[Suggestion]
 
 
-class Reference(Struct, frozen=True, kw_only=True):
+class Reference(Judged, frozen=True, kw_only=True):
     """One reference in full."""
 
     slug: Slug
@@ -111,11 +113,10 @@ class Reference(Struct, frozen=True, kw_only=True):
     parameters: Values | None  # of the replica that is shown
     active: list[str]
     at_limit: list[str]
-    distance: float | None
-    iou: float | None
-    chamfer: float | None
-    colour: str | None
-    compatible: bool
+    measures: Measures  # empty while the replica is not measured whole
+    missing: list[Piece]  # of the reference; the largest first
+    surplus: list[Piece]  # of the replica; the largest first
+    pose: Pose | None  # as in Tile
     group: int | None
     stage: Stage
     problem: Problem | None

@@ -9,7 +9,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from shapewright.shapes.files import Format
-from shapewright.studio.wire.collection import Mark
+from shapewright.studio.wire.judgement import Mark
 from shapewright.studio.wire.values import Slug, Values
 from shapewright.studio.wire.work import JobKind
 

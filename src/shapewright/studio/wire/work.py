@@ -8,6 +8,7 @@ from msgspec import UNSET, Meta, Struct, UnsetType
 
 from shapewright.progress import AnswerKind
 from shapewright.studio.wire.collection import Collection, Parameter
+from shapewright.studio.wire.judgement import Counts, Grade, Judge
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Address, Slug
 
@@ -64,7 +65,8 @@ class Run(Struct, frozen=True, kw_only=True):
     run: str
     created: str  # date and time, ISO 8601
     references: int  # how many there are
-    compatible: int  # how many of them are
+    judge: Judge  # that gave the grades
+    counts: Counts
     groups: int  # how many there are
     digest: str  # of the procedure's text
     procedure: str  # its name
@@ -87,12 +89,14 @@ class RunDetail(Struct, frozen=True, kw_only=True):
 
 
 class Move(Struct, frozen=True, kw_only=True):
-    """A reference whose distance changed."""
+    """A reference whose fidelity, or by the paper's judge whose distance, changed."""
 
     name: str
     slug: Slug | None  # null for one that is not in the collection any more
     before: float | None
     after: float | None
+    grade_before: Grade
+    grade_after: Grade
     colour_before: str | None
     colour_after: str | None
     reference: Address | None
@@ -114,6 +118,7 @@ class Comparison(Struct, frozen=True, kw_only=True):
 
     before: Run
     after: Run
+    judge: Judge  # the paper's where the two runs have different ones
     gained: list[Move]
     lost: list[Move]
     closer: list[Move]

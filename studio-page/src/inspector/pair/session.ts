@@ -5,7 +5,7 @@ import { complain } from "../../state/notices";
 import { connected, dimension, procedure, tileOf } from "../../state/studio";
 import { evaluate, onEvaluated } from "../../wire/live";
 import type { Evaluated, MeshMessage, ResidualsMessage } from "../../wire/binary";
-import type { DistanceMessage, DrawingMessage, Problem, Reference, Slug, Value, Values } from "../../wire/messages";
+import type { VerdictMessage, DrawingMessage, Problem, Reference, Slug, Value, Values } from "../../wire/messages";
 import { RequestError, requests } from "../../wire/requests";
 
 export type Colouring = "plain" | "distance" | "parts";
@@ -24,7 +24,7 @@ export const residuals = signal<{ reference: ResidualsMessage | null; replica: R
 /** What the author has set by hand; null while everything is as found. */
 export const edited = signal<Values | null>(null);
 export const outcome = signal<Outcome | null>(null);
-export const figures = signal<DistanceMessage | null>(null);
+export const figures = signal<VerdictMessage | null>(null);
 export const failure = signal<Problem | null>(null);
 /** The request whose answer is still to come; 0 when there is none. */
 export const waiting = signal(0);
@@ -64,7 +64,9 @@ function watch(next: Slug): () => void {
     const { digest, state } = procedure.value;
     return [
       tile?.replica,
+      tile?.fidelity,
       tile?.distance,
+      tile?.grade,
       tile?.stage,
       tile?.stale,
       digest,
@@ -128,7 +130,7 @@ function hear(message: Evaluated): void {
       residuals.value = { reference: null, replica: null };
       failure.value = null;
       return;
-    case "distance":
+    case "verdict":
       figures.value = message;
       if (message.id >= waiting.value) waiting.value = 0;
       return;

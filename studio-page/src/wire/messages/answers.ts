@@ -1,5 +1,6 @@
 // Made from src/shapewright/studio/wire/answers.py by `python tools/message_types.py`.
 
+import type { Grade, Measures, Piece } from "./judgement";
 import type { Problem } from "./problems";
 import type { Slug, Values } from "./values";
 
@@ -18,13 +19,18 @@ export interface Extent {
 /** Of a binary message: positions (f32, 3 a vertex), indices (u32, 3 a triangle), labels (i32, 1 a triangle). */
 export interface MeshHead {
   type: "mesh";
+  /** of the evaluation that it answers; 0 where it answers a request of HTTP. */
   id: number;
   slug: Slug | null;
   shape: Side;
+  /** what the values that were asked for became. */
   parameters?: Values;
+  /** parameters that matter there. */
   active?: string[];
+  /** parameters at an end of their Range. */
   at_limit?: string[];
   units?: Extent;
+  /** what the procedure took. */
   milliseconds?: number;
   vertices: number;
   triangles: number;
@@ -51,13 +57,18 @@ export interface ResidualsHead {
 /** A drawing as SVG path data, y up, to be filled by the even-odd rule. */
 export interface DrawingMessage {
   type: "drawing";
+  /** of the evaluation that it answers; 0 where it answers a request of HTTP. */
   id: number;
   slug: Slug | null;
   shape: Side;
+  /** what the values that were asked for became. */
   parameters?: Values;
+  /** parameters that matter there. */
   active?: string[];
+  /** parameters at an end of their Range. */
   at_limit?: string[];
   units?: Extent;
+  /** what the procedure took. */
   milliseconds?: number;
   path: string;
   /** what the reference covers and the replica does not. */
@@ -66,16 +77,23 @@ export interface DrawingMessage {
   excess: string | null;
 }
 
-/** How far a replica is from its reference; null where that cannot be measured. */
-export interface DistanceMessage {
-  type: "distance";
+/** What the judge says of a replica, as ``Judged`` has it. */
+export interface VerdictMessage {
+  type: "verdict";
   id: number;
   slug: Slug | null;
+  /** null where it cannot be measured. */
+  fidelity: number | null;
+  /** null where it cannot be measured. */
   distance: number | null;
-  iou: number | null;
-  chamfer: number | null;
-  colour: string | null;
+  measures: Measures;
+  /** of the reference; the largest first. */
+  missing: Piece[];
+  /** of the replica; the largest first. */
+  surplus: Piece[];
+  grade: Grade;
   compatible: boolean;
+  colour: string | null;
 }
 
 /** There is no replica at these parameters. */

@@ -1,7 +1,8 @@
 // Made from src/shapewright/studio/wire/changes.py by `python tools/message_types.py`.
 
-import type { Collection, Mark, Procedure, Tile } from "./collection";
+import type { Collection, Procedure, Tile } from "./collection";
 import type { Job, JobKind, Run } from "./work";
+import type { Judge, Marking } from "./judgement";
 import type { Problem } from "./problems";
 
 /** Of the author's project: its name, and where its parts are. */
@@ -22,8 +23,12 @@ export interface ChosenSettings {
   samples: number;
   epochs: number;
   refine: "off" | "quick" | "thorough";
+  facing: "given" | "found";
   rounds: number;
   seed: number;
+  judge: Judge;
+  replicated: number;
+  close: number;
   threshold: number;
   vif: number;
   shape_seconds: number;
@@ -43,7 +48,7 @@ export interface State {
   /** the oldest first. */
   runs: Run[];
   settings: ChosenSettings;
-  marks: Mark[];
+  marking: Marking;
   /** the run that is shown has one. */
   explanation: boolean;
   /** of the whole project, the worst first; empty when all is well. */
@@ -80,10 +85,10 @@ export interface RunsChanged {
   runs: Run[];
 }
 
-/** Replaces ``State.marks``. */
+/** Replaces ``State.marking``. */
 export interface MarksChanged {
   type: "marks";
-  marks: Mark[];
+  marking: Marking;
 }
 
 /** Replaces ``State.settings``. */

@@ -1,12 +1,23 @@
 // Made from src/shapewright/studio/wire/collection.py by `python tools/message_types.py`.
 
 import type { Address, Slug, Value } from "./values";
+import type { Counts, Grade, Judge, Pose } from "./judgement";
 import type { Problem } from "./problems";
 
 export type Stage = "none" | "carried" | "early" | "predicted" | "trained";
 
 /** One reference and its replica. */
 export interface Tile {
+  /** 0 to 1; null until it is measured, and in runs of before this judge. */
+  fidelity: number | null;
+  /** the paper's; null until it is measured, which may be a moment after the replica is shown. */
+  distance: number | null;
+  /** by the collection's judge; different without a replica. */
+  grade: Grade;
+  /** by the paper's measure. */
+  compatible: boolean;
+  /** of the grade; by the paper's judge of the distance: green at 0, yellow at the threshold, red. */
+  colour: string | null;
   slug: Slug;
   /** what people read. */
   name: string;
@@ -14,24 +25,21 @@ export interface Tile {
   reference: Address | null;
   /** picture of the replica; null until there is one. */
   replica: Address | null;
-  /** null until it is measured, which may be a moment after the replica is shown. */
-  distance: number | null;
-  /** of the distance: green at 0, yellow at the threshold, red far beyond it. */
-  colour: string | null;
-  compatible: boolean;
   /** index into the collection's groups; while a fit runs, these are those of the run before. */
   group: number | null;
   stage: Stage;
   /** the replica is of an older version of the procedure. */
   stale: boolean;
-  /** distance in the run before. */
+  /** fidelity in the run before; by the paper's judge its distance. */
   previous: number | null;
   /** parameters at an end of their Range. */
   at_limit: string[];
+  /** null where the reference stands as its replica, or is not explained. */
+  pose: Pose | null;
   problem: Problem | null;
 }
 
-/** Incompatible references that look alike. */
+/** References that are not replicated and look alike. */
 export interface Group {
   /** the nearest to the group's centre; null when none of its members is there any more. */
   representative: Slug | null;
@@ -49,13 +57,21 @@ export interface Skipped {
 export interface Collection {
   /** the run that is shown; null before the first. */
   run: string | null;
+  /** that gives the grades. */
+  judge: Judge;
+  /** the least fidelity of a replicated reference. */
+  replicated: number;
+  /** the least fidelity of a close one. */
+  close: number;
+  /** the largest distance of a compatible one. */
   threshold: number;
   /** what distances are. */
   measure: string;
   /** when a replica is compatible, in words. */
   criterion: string;
+  /** of all references. */
   count: number;
-  compatible: number;
+  counts: Counts;
   /** in natural order of names. */
   tiles: Tile[];
   /** the largest first. */
@@ -92,11 +108,4 @@ export interface Procedure {
   /** digest of the version that the newest fit used. */
   fitted: string | null;
   parameters: Parameter[];
-}
-
-/** Whether a person finds two references the same; where ``a`` is ``b``, the reference and its own replica. */
-export interface Mark {
-  a: Slug;
-  b: Slug;
-  same: boolean;
 }

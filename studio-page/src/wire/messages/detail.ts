@@ -1,6 +1,7 @@
 // Made from src/shapewright/studio/wire/detail.py by `python tools/message_types.py`.
 
 import type { Address, Slug, Values, Vector } from "./values";
+import type { Grade, Measures, Piece, Pose } from "./judgement";
 import type { Problem } from "./problems";
 import type { Stage } from "./collection";
 
@@ -47,6 +48,8 @@ export interface Cause {
   kind: string;
   text: string;
   evidence: unknown;
+  /** PNG in base64, where words are not enough. */
+  picture?: string;
 }
 
 /** Why one reference is not replicated; explanations of earlier versions have no placement. */
@@ -88,6 +91,16 @@ export interface Explanation {
 
 /** One reference in full. */
 export interface Reference {
+  /** 0 to 1; null until it is measured, and in runs of before this judge. */
+  fidelity: number | null;
+  /** the paper's; null until it is measured, which may be a moment after the replica is shown. */
+  distance: number | null;
+  /** by the collection's judge; different without a replica. */
+  grade: Grade;
+  /** by the paper's measure. */
+  compatible: boolean;
+  /** of the grade; by the paper's judge of the distance: green at 0, yellow at the threshold, red. */
+  colour: string | null;
   slug: Slug;
   name: string;
   /** of its file, relative to the project where it lies inside. */
@@ -101,11 +114,14 @@ export interface Reference {
   parameters: Values | null;
   active: string[];
   at_limit: string[];
-  distance: number | null;
-  iou: number | null;
-  chamfer: number | null;
-  colour: string | null;
-  compatible: boolean;
+  /** empty while the replica is not measured whole. */
+  measures: Measures;
+  /** of the reference; the largest first. */
+  missing: Piece[];
+  /** of the replica; the largest first. */
+  surplus: Piece[];
+  /** as in Tile. */
+  pose: Pose | null;
   group: number | null;
   stage: Stage;
   problem: Problem | null;

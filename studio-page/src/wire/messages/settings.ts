@@ -6,8 +6,22 @@ export const SETTINGS = {
   samples: { help: "Parameter vectors to learn from.", least: 20, most: null, step: 1 },
   epochs: { help: "Passes of training over the samples.", least: 1, most: null, step: 1 },
   rounds: { help: "Rounds of more samples around the parameters found so far.", least: 0, most: null, step: 1 },
+  facing: { help: "found turns each reference by the quarter turns that fit best.", choices: ["given", "found"] },
   refine: { help: "How long to search from the prediction.", choices: ["off", "quick", "thorough"] },
+  judge: { help: "fidelity: as a person sees it; paper: by light-field distance or VIF.", choices: ["fidelity", "paper"] },
+  replicated: { help: "Least fidelity of a replicated reference.", least: 0, most: 1, step: "any" },
+  close: { help: "Least fidelity of a close one; at most replicated.", least: 0, most: 1, step: "any" },
   threshold: { help: "Largest light-field distance of a compatible mesh.", least: 0, most: null, step: "any" },
   vif: { help: "Least visual information fidelity of a compatible drawing.", least: 0, most: 1, step: "any" },
   seed: { help: "Of everything random: the same seed gives the same result.", least: 0, most: null, step: 1 },
 } as const;
+export const MEASURES: Record<string, string> = {
+  distance: "The paper's: light-field distance, or 1 - VIF",
+  iou: "IoU of silhouettes, or of areas",
+  chamfer: "Chamfer distance, in largest extents",
+  depth: "Difference of depth pictures, 0 to 1",
+  fidelity: "Fidelity: how likely a person calls the two the same",
+  volume_iou: "IoU of volumes",
+  f1: "F-score at 1 % of the largest extent",
+  f2: "F-score at 2 % of the largest extent",
+};

@@ -2,6 +2,7 @@
 
 import type { Address, Slug } from "./values";
 import type { Collection, Parameter } from "./collection";
+import type { Counts, Grade, Judge } from "./judgement";
 import type { Problem } from "./problems";
 
 export type JobKind = "fit" | "explain" | "export";
@@ -58,8 +59,9 @@ export interface Run {
   created: string;
   /** how many there are. */
   references: number;
-  /** how many of them are. */
-  compatible: number;
+  /** that gave the grades. */
+  judge: Judge;
+  counts: Counts;
   /** how many there are. */
   groups: number;
   /** of the procedure's text. */
@@ -88,13 +90,15 @@ export interface RunDetail {
   validation: Record<string, Record<string, number | string | null>>;
 }
 
-/** A reference whose distance changed. */
+/** A reference whose fidelity, or by the paper's judge whose distance, changed. */
 export interface Move {
   name: string;
   /** null for one that is not in the collection any more. */
   slug: Slug | null;
   before: number | null;
   after: number | null;
+  grade_before: Grade;
+  grade_after: Grade;
   colour_before: string | null;
   colour_after: string | null;
   reference: Address | null;
@@ -116,6 +120,8 @@ export interface DiffLine {
 export interface Comparison {
   before: Run;
   after: Run;
+  /** the paper's where the two runs have different ones. */
+  judge: Judge;
   gained: Move[];
   lost: Move[];
   closer: Move[];
