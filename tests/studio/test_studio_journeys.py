@@ -283,8 +283,10 @@ def test_a_fit_is_cancelled(visit: Visit, fitted: dict[str, Any]) -> None:
 
 def test_two_iterations_are_compared(visit: Visit, fitted: dict[str, Any]) -> None:
     page = visit.page
+    visit.studio.send("PATCH", "/api/settings", {"refine": "quick"})  # without it neither version replicates a table
     visit.studio.save((EXAMPLES / "v5.py").read_text())
     state = visit.studio.wait_for(whole(fitted), 240)
+    visit.studio.send("PATCH", "/api/settings", {"refine": "off"})
     visit.go("history")
     page.wait_for_selector(".chart .after")
     assert page.locator(".chart li").count() == len(state["runs"])

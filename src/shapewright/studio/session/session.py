@@ -7,6 +7,7 @@ import contextlib
 from dataclasses import replace
 from functools import partial
 from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 from shapewright.references.errors import CollectionError
@@ -196,8 +197,13 @@ class Session:
     def references_changed(self) -> None:
         """Files came, went or changed among the references."""
         self._list_references()
-        self.display.show(self.display.run or self.display.newest(), self.standard)
+        self._show(self.display.run or self.display.newest())
         self.bench.list_references(self.preferences.settings)
+
+    def _show(self, run: Path | None) -> None:
+        """Show a run, and ask for its marks."""
+        self.display.show(run, self.standard)
+        self.pages.publish(changes.MarksChanged(marking=self.marking()))
 
     def _list_references(self) -> None:
         try:
@@ -248,7 +254,7 @@ class Session:
         fitted = None if self.authored.helper else self.display.newest(self.authored.digest)
         if fitted:
             if fitted != self.display.run or self._stale:
-                self.display.show(fitted, self.standard)
+                self._show(fitted)
         else:
             self.bench.sweep("carried", self.display.parameters)
         self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
@@ -268,14 +274,13 @@ class Session:
     def _job_ended(self, job: Job) -> None:
         self.problems.report(job.kind, [job.problem] if job.problem else [])
         if job.kind == "fit" and job.state == "done":
-            self.display.show(self.display.newest(), self.standard)
+            self._show(self.display.newest())
             self.bench.sweep("carried", {})
             self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
         if job.kind == "explain" and job.state == "done":
             self.display.explain()
         if job.kind in ("fit", "explain"):
             self.pages.publish(changes.RunsChanged(runs=self.runs()))
-            self.pages.publish(changes.MarksChanged(marking=self.marking()))
             self.pages.publish(changes.ExplanationChanged(explanation=self.explained))
 
     @property
