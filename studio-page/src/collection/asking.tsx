@@ -1,6 +1,7 @@
 /** Pairs to mark: those of which the judge is least sure. */
 
 import { signal } from "@preact/signals";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { mark } from "../state/actions";
 import { valueOf } from "../state/grades";
 import { inspect } from "../state/route";
@@ -21,10 +22,17 @@ export function Asking() {
     const tile = tileOf(slug);
     return tile && tile.stage === "trained" && !tile.stale ? [tile] : [];
   });
+  const self = useRef<HTMLElement>(null);
+  const shown = asked.map(({ slug }) => slug).join();
+  useLayoutEffect(() => {
+    // The pair that had the focus is marked and gone: the next one gets it.
+    const lost = document.activeElement === null || document.activeElement === document.body;
+    if (lost && last.peek()) self.current?.querySelector<HTMLElement>(".row button")?.focus({ preventScroll: true });
+  }, [shown]);
   if (away.value || (!asked.length && !last.value)) return null;
   const { learned } = marking.value;
   return (
-    <section class="asking" aria-label="Pairs to mark">
+    <section class="asking" aria-label="Pairs to mark" ref={self}>
       <header>
         <h2>
           {asked.length

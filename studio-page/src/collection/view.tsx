@@ -94,7 +94,7 @@ function Sections() {
       {groups.length > 0 && (
         <section aria-label="Not replicated, in groups">
           <h2>
-            Not replicated <small>{groups.reduce((sum, { tiles }) => sum + tiles.length, 0)}</small>
+            Not replicated, alike <small>{groups.reduce((sum, { tiles }) => sum + tiles.length, 0)}</small>
             <span class="soft"> in {plural(groups.length, "group")}</span>
           </h2>
           <div class="tiles">
@@ -114,7 +114,7 @@ function Sections() {
 function Plain({ section: { kind, tiles } }: { section: Section }) {
   const folded = kind === "replicated" && filter.value === "all" && !searching.value && !replicatedOpen.value;
   const title = {
-    loose: collection.value.run ? "Not in a group" : "References",
+    loose: collection.value.run ? "Not replicated, in no group" : "References",
     replicated: "Replicated",
     all: "",
     group: "",
