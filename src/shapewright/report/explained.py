@@ -11,8 +11,6 @@ from typing import Any
 import numpy as np
 
 from shapewright.rendering.cameras import THUMBNAIL
-from shapewright.rendering.ink import HALF
-from shapewright.rendering.thumbnails import DRAWN
 from shapewright.runs.folder import EXPLANATION, read_json
 from shapewright.shapes import Floats
 
@@ -91,6 +89,9 @@ def _path(corners: Floats) -> str:
 
 def _frame(corners: Floats) -> str:
     """The box around a region of a drawing as an SVG path, on a thumbnail of it."""
+    from shapewright.rendering.ink import HALF  # numba, which the studio's server does without
+    from shapewright.rendering.thumbnails import DRAWN
+
     places = corners[:, :2] * [1.0, -1.0] * DRAWN / (2.0 * HALF) + 0.5
     low, high = places.min(axis=0) * 100.0, places.max(axis=0) * 100.0
     return f"M{low[0]:.1f} {low[1]:.1f}H{high[0]:.1f}V{high[1]:.1f}H{low[0]:.1f}Z"
