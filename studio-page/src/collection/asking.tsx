@@ -42,7 +42,9 @@ export function Asking() {
         <Button kind="quiet" icon="close" title="Put these away until the page is opened again" onClick={putAway} />
       </header>
       <p class="soft">
-        The judge is least sure of these. Are reference and replica the same to your eye? The cut follows your marks.
+        The judge is least sure of these. Are reference and replica the same to your eye?{" "}
+        {collection.value.judge === "fidelity" ? "The cut follows" : "The threshold of the next fit follows"} your
+        marks.
       </p>
       <ul>
         {asked.map((tile) => (

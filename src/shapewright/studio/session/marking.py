@@ -42,10 +42,12 @@ def marking(project: Path, run: Path | None, slugs: Mapping[str, Slug], settings
     except RunError:
         return Marking(marks=[], learned=None, asked=[])
     own = {a for a, b, _ in judged if a == b}
+    # Marks of a run that another judge judged would not move the cut.
+    open_ones = asked(run, shown, own) if run and shown.judge == settings.judge else ()
     return Marking(
         marks=[Mark(a=slugs[a], b=slugs[b], same=same) for a, b, same in judged if a in slugs and b in slugs],
         learned=found,
-        asked=[slugs[name] for name in (asked(run, shown, own) if run else ()) if name in slugs],
+        asked=[slugs[name] for name in open_ones if name in slugs],
     )
 
 
