@@ -212,6 +212,19 @@ def test_live_grades_are_those_of_the_fit(fitted: Studio) -> None:
             )
 
 
+def test_carried_replicas_are_graded_as_those_of_the_fit(fitted: Studio, mended: Studio) -> None:
+    before = {tile["slug"]: tile for tile in fitted.get("/api/state")["collection"]["tiles"]}
+    mended.edit(PROCEDURE + "\n# the same again\n")
+
+    def measured(state: dict[str, Any]) -> bool:
+        return all(t["stage"] == "carried" and t["fidelity"] is not None for t in state["collection"]["tiles"])
+
+    for tile in mended.wait_for(measured)["collection"]["tiles"]:
+        was = before[tile["slug"]]
+        assert tile["grade"] == was["grade"] and tile["compatible"] == was["compatible"]
+        assert tile["fidelity"] == pytest.approx(was["fidelity"], abs=1e-6) and tile["colour"] == was["colour"]
+
+
 def test_another_cut_gives_other_grades_at_once_live_ones_too(fitted: Studio) -> None:
     tiles = fitted.get("/api/state")["collection"]["tiles"]
     best = max(tiles, key=lambda tile: tile["fidelity"])
