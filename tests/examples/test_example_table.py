@@ -12,8 +12,9 @@ FOLDER = Path(__file__).resolve().parents[2] / "examples" / "categories" / "tabl
 VERSIONS = [path.stem for path in sorted(FOLDER.glob("v*.py"))]
 LABELS = {
     "legs": {"top", "legs", "apron"},
-    "splayed": {"top", "legs", "apron"},
-    "panels": {"top", "panels", "apron"},
+    "panels": {"top", "panels"},
+    "sled": {"top", "legs", "runners"},
+    "box": {"top", "box"},
     "trestle": {"top", "legs", "foot"},
     "column": {"top", "column", "foot"},
     "star": {"top", "column", "foot"},
@@ -38,8 +39,8 @@ def corners(space, count: int, seed: int):
         yield space.canonical(vector | ends)
 
 
-def test_the_last_version_has_the_kinds_of_parameters_that_the_paper_s_tables_have():
-    kinds = [type(parameter).__name__ for parameter in load(VERSIONS[-1]).space]
+def test_version_3_has_the_kinds_of_parameters_that_the_paper_s_tables_have():
+    kinds = [type(parameter).__name__ for parameter in load("v3").space]
     least = {"Scalar": 6, "Integer": 2, "Binary": 1, "Choice": 1}
     assert all(kinds.count(kind) >= count for kind, count in least.items())
     assert len(kinds) <= 14
@@ -67,6 +68,8 @@ def test_a_table_is_as_high_and_deep_as_its_parameters_say(version):
     for parameters in table.space.sample(15, seed=8):
         if parameters.get("base") == "splayed":  # the feet may stand out
             parameters = parameters | {"base": "legs"}
+        if version == "v4":
+            parameters = parameters | {"splay": 0.0}
         low, high = table(**parameters).bounds
         np.testing.assert_allclose(high - low, [1, parameters["height"], parameters["depth"]], atol=1e-6)
 
@@ -79,9 +82,22 @@ def test_every_part_is_labelled(base):
 
 def test_further_parts_come_with_their_parameters():
     table = load(VERSIONS[-1])
-    assert "shelf" in table(tiers=2).labels
-    assert all("stretchers" in table(tiers=1, tier=kind).labels for kind in ("rails", "cross"))
-    assert "back" in table(base="panels", back=True).labels
+    assert all("shelf" in table(base=base, tiered=True).labels for base in ("legs", "panels", "sled"))
+    assert all("stretchers" in table(tiered=True, tier=kind).labels for kind in ("rails", "cross"))
+    assert all("back" in table(base=base, back=True).labels for base in ("panels", "trestle"))
+    assert count_faces(table(base="star", feet=3), "foot") < count_faces(table(base="star", feet=4), "foot")
+
+
+def test_a_back_reaches_from_the_top_down_to_its_level():
+    table = load(VERSIONS[-1])
+    for base in ("panels", "trestle"):
+        mesh = table(base=base, back=True, height=1.0, thickness=0.1, level=0.5)
+        points = mesh.vertices[mesh.faces[mesh.face_labels == mesh.label_names.index("back")]].reshape(-1, 3)
+        assert points[:, 1].min() - mesh.bounds[0, 1] == pytest.approx(0.5 * 0.9)
+
+
+def test_drawers_of_version_3_come_with_cabinets():
+    table = load("v3")
     drawers = [count_faces(table(base="panels", cabinets=count), "drawers") for count in (0, 1, 2)]
     assert drawers[0] == 0 < drawers[1] < drawers[2]
 
