@@ -14,7 +14,7 @@ from shapewright.comparison.gaps import Boundary
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.pictures import intersection_over_union, visual_information_fidelity
 from shapewright.comparison.remainders import CUT, mixed
-from shapewright.judging.fidelity import Fidelity
+from shapewright.judging.drawn_fidelity import DrawnFidelity
 from shapewright.judging.paper import Metric, vif_metric
 from shapewright.judging.target import Measures
 from shapewright.judging.verdict import Evidence, Grade, grade_of
@@ -33,7 +33,7 @@ class DrawingTarget:
     surprise_cost = 0.0  # forms are told apart by their pictures
 
     def __init__(self, shape: Drawing, settings: Settings) -> None:
-        self.shape, self._settings, self._fidelity = shape, settings, Fidelity(shape)
+        self.shape, self._settings, self._fidelity = shape, settings, DrawnFidelity(shape)
         self._describe = functools.cache(functools.partial(_outline, shape))
         self._boundary = functools.cache(functools.partial(Boundary, shape))
         self._blurred = functools.cache(functools.partial(BlurredDifference, shape))
