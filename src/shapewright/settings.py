@@ -79,8 +79,8 @@ class Judging:
     """
 
     judge: Annotated[JudgeName, "fidelity: as a person sees it; paper: by light-field distance or VIF."] = "fidelity"
-    replicated: Annotated[float, Within(above=0, below=1), "Least fidelity of a replicated reference."] = 0.5
-    close: Annotated[float, Within(above=0, below=1), "Least fidelity of a close one; at most replicated."] = 0.2
+    replicated: Annotated[float, Within(above=0, below=1), "Least fidelity of a replicated reference."] = 0.65
+    close: Annotated[float, Within(above=0, below=1), "Least fidelity of a close one; at most replicated."] = 0.35
     threshold: Annotated[float, Within(above=0), "Largest light-field distance of a compatible mesh."] = 0.18
     metric: Annotated[Weights | None, "Learned from marks: bias; weights of distance, IoU and depth difference."] = None
     vif: Annotated[float, Within(above=0, below=1), "Least visual information fidelity of a compatible drawing."] = 0.05

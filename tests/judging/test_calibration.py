@@ -41,9 +41,9 @@ def test_the_cut_of_the_fidelity_goes_by_the_same_rule():
 
 
 def test_marks_move_the_cut_of_the_fidelity_and_the_threshold_apart():
-    pairs = [{"distance": 0.1, "fidelity": f} for f in (0.4, 0.6, 0.7, 0.8)]
+    pairs = [{"distance": 0.1, "fidelity": f} for f in (0.4, 0.7, 0.8, 0.9)]
     found = calibrate([*pairs, {"distance": 0.12}], [False, False, True, True, True])
-    assert found.replicated == pytest.approx(0.65) and found.marks == 5
+    assert found.replicated == pytest.approx(0.75) and found.marks == 5
     assert found.default_fidelity_accuracy == 0.75 and found.default_accuracy == 0.6
 
 

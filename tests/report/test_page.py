@@ -177,7 +177,9 @@ def by_fidelity() -> dict[str, Any]:
     """The same references with a fidelity, a grade and a region each; all but box and yew are compatible."""
     values = {"oak": 0.9, "elm": 0.35, "ash": 0.1, "fir": 0.25, "yew": 0.02, "box": None, EVIL: 0.6}
     region = {"size": 0.314, "low": [-0.1, -0.4, 0.0], "high": [0.1, -0.09, 0.1], "share": 0.05}
-    contents = record(typical()["references"], judge="fidelity", settings={"judge": "fidelity"})
+    contents = record(
+        typical()["references"], judge="fidelity", settings={"judge": "fidelity", "replicated": 0.5, "close": 0.2}
+    )
     for one in contents["references"]:
         value = values[one["name"]]
         grade = "replicated" if (value or 0) >= 0.5 else "close" if (value or 0) >= 0.2 else "different"

@@ -108,7 +108,19 @@ def iteration(fidelities, kinds=None, distances=None, **settings):
         )
         for i, (fidelity, kind) in enumerate(zip(fidelities, kinds or [0] * len(fidelities), strict=True))
     ]
-    return Iteration(tuple(results), light_field_metric(0.18), (), Settings(**settings), {}, {}, "", {}, {}, {}, "")
+    return Iteration(
+        tuple(results),
+        light_field_metric(0.18),
+        (),
+        Settings(**{"replicated": 0.5, "close": 0.2} | settings),
+        {},
+        {},
+        "",
+        {},
+        {},
+        {},
+        "",
+    )
 
 
 def test_the_pairs_nearest_to_the_cut_are_worth_marking():
@@ -130,7 +142,7 @@ def test_where_the_paper_judges_the_pairs_nearest_to_the_threshold_are_worth_mar
     assert found == ("001", "003")
 
 
-@pytest.mark.parametrize("hidden", [0.3, 0.65, 0.8])
+@pytest.mark.parametrize("hidden", [0.45, 0.8, 0.9])
 def test_marks_that_are_asked_for_bring_the_cut_nearer_to_the_eye_than_random_ones(hidden):
     """The eye is a hidden cut with some doubt around it; two runs of eight marks each."""
     apart = {"asked": [], "random": []}

@@ -22,6 +22,7 @@ from shapewright.cli.runs import judged_by_marks
 from shapewright.comparison.gaps import Surface
 from shapewright.procedures import load_procedure
 from shapewright.references import Collection
+from shapewright.settings import Settings
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.wire.answers import parse
 from studio_client import PROCEDURE, Studio, ready, studio
@@ -236,7 +237,7 @@ def test_another_cut_gives_other_grades_at_once_live_ones_too(fitted: Studio) ->
     fitted.say(type="evaluate", id=400, slug=best["slug"], parameters=values)
     told = fitted.next(lambda m: m["type"] == "verdict" and m["id"] == 400)
     assert told["grade"] == next(t for t in changed["tiles"] if t["slug"] == best["slug"])["grade"]
-    fitted.send("PATCH", "/api/settings", {"replicated": 0.5})
+    fitted.send("PATCH", "/api/settings", {"replicated": Settings.replicated})
     assert fitted.get("/api/state")["collection"]["tiles"] == tiles
 
 
@@ -250,7 +251,7 @@ def test_marks_move_the_cut_as_on_the_command_line(fitted: Studio) -> None:
     assert state["marking"]["learned"]["count"] == len(tiles) and state["marking"]["asked"] == []
     fitted.send("PUT", "/api/marks", [])
     state = fitted.get("/api/state")
-    assert state["marking"]["learned"] is None and state["collection"]["replicated"] == 0.5
+    assert state["marking"]["learned"] is None and state["collection"]["replicated"] == Settings.replicated
 
 
 def test_a_run_of_before_the_judge_opens_by_the_papers(fitted: Studio, tmp_path: Path) -> None:

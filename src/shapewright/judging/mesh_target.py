@@ -94,7 +94,7 @@ class MeshTarget:
             iou=views.intersection_over_union(self.shape, replica),
             chamfer=gaps.chamfer,
             depth=views.depth_difference(self.shape, replica),
-            fidelity=self.evidence(replica).value if fidelity is None else fidelity,
+            fidelity=self._fidelity.value(replica) if fidelity is None else fidelity,
             volume_iou=volumes.intersection_over_union(self._volume(), volumes.Volume.of(replica)),
             f1=gaps.f_score(0.01),
             f2=gaps.f_score(0.02),

@@ -55,9 +55,6 @@ class Standing:
 
 _PERFECT = 0.99  # a fidelity that is as good as 1
 _LEAST = 1e-30  # of a fidelity, so that its odds are finite
-_BEYOND = 0.27
-"""How much what lies beyond the cut counts: tables 0.8 and 1.4 high, of a fidelity of 1e-16, lie as far apart as by
-the light field, 1.6 thresholds."""
 
 
 def apart_of(value: float, settings: Judging) -> float:
@@ -69,7 +66,7 @@ def apart_of(value: float, settings: Judging) -> float:
     if math.isnan(value) or value >= perfect:
         return 0.0 if value >= perfect else math.nan
     away = (_log_odds(perfect) - _log_odds(value)) / (_log_odds(perfect) - _log_odds(cut))
-    return away if away <= 1.0 else 1.0 + _BEYOND * math.log(away)
+    return away if away <= 1.0 else 1.0 + math.log(away)
 
 
 def _log_odds(value: float) -> float:

@@ -24,7 +24,7 @@ def test_the_page_gets_its_own_entries_and_some_settings():
         ({"judge": "eye"}, "judge='eye' must be fidelity or paper"),
         ({"replicated": 1.0}, "replicated=1.0 must be a finite number, greater than 0 and less than 1"),
         ({"vif": 0}, "vif=0 must be a finite number, greater than 0 and less than 1"),
-        ({"replicated": 0.1}, "close=0.2 must be at most replicated=0.1"),
+        ({"replicated": 0.1}, "close=0.35 must be at most replicated=0.1"),
     ],
 )
 def test_what_a_setting_does_not_allow_is_refused(given, message):

@@ -19,7 +19,7 @@ def test_the_cut_is_where_most_marks_are_right(tmp_path):
     project = marked(tmp_path, (0.9, 0.1, True), (0.7, 0.1, False), (0.6, 0.2, False))
     found = learned(project, None, "fidelity")
     assert found is not None and 0.7 < found.cut < 0.9
-    assert (found.count, found.agrees, found.usual, found.usual_agrees) == (3, 3, Settings.replicated, 1)
+    assert (found.count, found.agrees, found.usual, found.usual_agrees) == (3, 3, Settings.replicated, 2)
     assert cuts(found, "fidelity") == {"replicated": found.cut, "close": Settings.close}
 
 

@@ -1,0 +1,199 @@
+"""How a replica differs from its reference in pictures from all sides, in place: as numbers, and as regions."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import Any, TypeAlias
+
+import numpy as np
+from scipy.ndimage import label
+
+from shapewright.judging import pixels
+from shapewright.judging.verdict import Region
+from shapewright.rendering.surround import AXES, BELOW, EMPTY, ORDERS, PIXELS, POSES, Surround
+from shapewright.shapes import Floats, Mesh
+
+_DEEP = 0.2  # of the largest extent: depths that differ by more count alike
+_MOST = 0.08  # of the largest extent: a surface farther than this from the other counts alike
+_NEAR, _FAR = 0.025, 0.06
+"""Of the largest extent: a gap beyond the first is more than 2 % of every Range gives, one beyond the second a part."""
+_STANDS_OUT = 4.0  # usual gaps beyond which a gap stands out
+_BINS = 501  # of gaps up to _MOST, for their median
+_JUMP = 0.03  # of the largest extent: a step of depth that is an edge
+_AROUND = 2  # pixels within which two edges are one
+_THIN = 0.02  # of the largest extent: thinner shapes count as this thick when sides are compared
+_WEIGHTS = np.array([1.0] * 5 + [0.25] + [1.0] * 4 + [0.6] * 4)
+"""Of the views. People look from above: soups often have no underside, and those labelled by eye were seen so."""
+_ALIKE = 0.02  # difference of depth below which no other pose is tried
+_LEAST = 0.004  # share of the surface below which a region is left out
+
+
+Gaps: TypeAlias = tuple[Any, Any]
+"""Of the reference and of the replica, (14, S, S): how far each pixel is from the other, 0 where empty."""
+
+
+@dataclass(frozen=True)
+class Differences:
+    """What the judge goes by; 0 is equal. Views count by _WEIGHTS."""
+
+    depth: float  # mean difference of depth where either is, 0 to 1; what only one covers counts whole
+    worst_depth: float  # of the view in which it is greatest, but for the one from below
+    outline: float  # 1 - intersection over union of the silhouettes
+    gap: float  # mean distance between the surfaces, in units of the largest extent
+    usual_gap: float  # the median of that distance
+    missing: float  # side of the largest region of the reference beyond _NEAR: the root of its area in a view
+    surplus: float  # the same of the replica
+    far_missing: float  # share of the reference's surface beyond _FAR
+    far_surplus: float  # share of the replica's surface beyond _FAR
+    missing_beside: float  # as ``missing``, of what stands out: beyond _STANDS_OUT usual gaps
+    surplus_beside: float  # as ``surplus``, of what stands out
+    edges: float  # 1 - F-score of edges within _AROUND pixels
+    proportion: float  # logarithm of how much more one side of the bounding box grows than another
+    other_pose: float  # logarithm of the depth difference over that in the best of the other poses
+    stretch: float  # share of the depth difference that stays when both bounding boxes are made equal; 1 if not tried
+
+    def row(self) -> Floats:
+        """(15,): all of them, in their order."""
+        return np.array([getattr(self, field.name) for field in fields(self)])
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """A normalised mesh as the judge looks at it."""
+
+    mesh: Mesh
+    surround: Surround
+    edges: Any  # (14, S, S) bool: where the surface ends, or steps back
+
+    @classmethod
+    def of(cls, mesh: Mesh) -> Look:
+        """Raises ValueError for a mesh of no size."""
+        normal = mesh.normalised()
+        surround = Surround.of(normal)
+        edges = np.zeros(surround.nearness.shape, dtype=np.bool_)
+        pixels.mark_edges(surround.nearness, _JUMP, edges)
+        return cls(normal, surround, edges)
+
+    @property
+    def visible(self) -> bool:
+        return bool((self.surround.area > 0.0).any())
+
+
+def compare(reference: Look, replica: Look) -> tuple[Differences, Gaps]:
+    """The differences, and how far each pixel of the reference and of the replica is from the other: both visible."""
+    ours, theirs = reference.surround, replica.surround
+    depth, outline = _views(ours.nearness, theirs.nearness)
+    lost, extra = np.empty((2, *ours.nearness.shape), dtype=np.float32)
+    pixels.measure_gaps(ours.nearness, theirs.nearness, PIXELS, _MOST, lost)
+    pixels.measure_gaps(theirs.nearness, ours.nearness, PIXELS, _MOST, extra)
+    bins = np.zeros(_BINS)
+    lost_gap, lost_far = pixels.summarise(lost, ours.area, _WEIGHTS, _FAR, _MOST, bins)
+    extra_gap, extra_far = pixels.summarise(extra, theirs.area, _WEIGHTS, _FAR, _MOST, bins)
+    filled = np.cumsum(bins)
+    usual = float(np.searchsorted(filled, filled[-1] / 2.0) * _MOST / (_BINS - 1))
+    beside = min(max(_NEAR, _STANDS_OUT * usual), 0.99 * _MOST)
+    mean = _mean(depth)
+    proportion, unequal = _proportion(reference.mesh, replica.mesh)
+    differences = Differences(
+        depth=mean,
+        worst_depth=float(np.delete(depth, BELOW).max()),
+        outline=_mean(outline),
+        gap=(lost_gap + extra_gap) / 2.0,
+        usual_gap=usual,
+        missing=_largest(lost, _NEAR),
+        surplus=_largest(extra, _NEAR),
+        far_missing=lost_far,
+        far_surplus=extra_far,
+        missing_beside=_largest(lost, beside),
+        surplus_beside=_largest(extra, beside),
+        edges=_edges(reference.edges, replica.edges),
+        proportion=proportion,
+        other_pose=_other_pose(reference, replica, mean),
+        stretch=_stretch(reference, replica, mean) if unequal else 1.0,
+    )
+    return differences, (lost, extra)
+
+
+def regions(reference: Look, replica: Look, gaps: Gaps) -> tuple[tuple[Region, ...], tuple[Region, ...]]:
+    """The missing and the surplus regions, the largest first, by the gaps of ``compare``."""
+    return _regions(reference.surround, gaps[0]), _regions(replica.surround, gaps[1])
+
+
+def _mean(of_views: Floats) -> float:
+    return float(of_views @ _WEIGHTS / _WEIGHTS.sum())
+
+
+def _views(ours: Any, theirs: Any) -> tuple[Floats, Floats]:
+    """(14,) each: mean difference of depth where either is, and 1 - IoU of the silhouettes."""
+    both, either = (ours > EMPTY) & (theirs > EMPTY), (ours > EMPTY) | (theirs > EMPTY)
+    covered = np.maximum(either.sum(axis=(1, 2)), 1)
+    apart = np.where(both, np.minimum(np.abs(ours - theirs) / _DEEP, 1.0), either)
+    return apart.sum(axis=(1, 2)) / covered, 1.0 - both.sum(axis=(1, 2)) / covered
+
+
+def _largest(gaps: Any, beyond: float) -> float:
+    """The side of the largest connected region of a view; the view from below counts a quarter."""
+    areas = np.empty(len(gaps))
+    pixels.largest_areas(gaps, beyond, areas)
+    sides = np.sqrt(areas) * PIXELS
+    sides[BELOW] *= _WEIGHTS[BELOW]
+    return float(sides.max())
+
+
+def _edges(ours: Any, theirs: Any) -> float:
+    precise, complete = (_shared(a, b) for a, b in ((ours, theirs), (theirs, ours)))
+    return 1.0 - 2.0 * precise * complete / max(precise + complete, 1e-9)
+
+
+def _shared(some: Any, others: Any) -> float:
+    """The share of edges that have others beside them."""
+    hits = np.empty((len(some), 2))
+    pixels.count_beside(some, others, _AROUND, hits)
+    beside, count = _WEIGHTS @ hits
+    return float(beside / max(count, 1.0))
+
+
+def _proportion(reference: Mesh, replica: Mesh) -> tuple[float, bool]:
+    """How unequal the bounding boxes are, and whether that is enough to be told, by more than a thin side."""
+    ours, theirs = reference.extent, replica.extent
+    ratios = np.log(np.maximum(ours, _THIN) / np.maximum(theirs, _THIN))
+    unequal = float(np.ptp(ratios))
+    return unequal, unequal > 0.2 and float(np.abs(ours - theirs).max()) > 0.035
+
+
+def _other_pose(reference: Look, replica: Look, depth: float) -> float:
+    if depth < _ALIKE:
+        return 0.0
+    means = np.empty(len(POSES))
+    pixels.pose_depths(
+        reference.surround.nearness, replica.surround.nearness, *ORDERS, _DEEP, _WEIGHTS / _WEIGHTS.sum(), means
+    )
+    return math.log((float(means[0]) + 0.01) / (float(means[1:].min()) + 0.01))
+
+
+def _stretch(reference: Look, replica: Look, depth: float) -> float:
+    scale = reference.mesh.extent / np.maximum(replica.mesh.extent, 1e-6)
+    stretched = Surround.of(replica.mesh.transformed(np.diag(scale)))
+    return min(_mean(_views(reference.surround.nearness, stretched.nearness)[0]) / max(depth, 1e-6), 1.0)
+
+
+def _regions(surround: Surround, gaps: Any) -> tuple[Region, ...]:
+    """Where the surface is farther than _NEAR from the other, in most of the views that show the place."""
+    whole, apart = np.zeros((2, pixels.CELLS**3))
+    places = np.empty(gaps.shape, dtype=np.int64), np.empty((*gaps.shape, 3))
+    pixels.sort_into_cells(surround.nearness, surround.area, gaps, _NEAR, AXES, PIXELS, *places, whole, apart)
+    numbers, count = label((apart > 0.5 * whole).reshape((pixels.CELLS,) * 3), np.ones((3, 3, 3)))
+    boxes = np.tile([np.inf] * 3 + [-np.inf] * 3 + [0.0], (count + 1, 1))
+    pixels.box(numbers.ravel(), *places, gaps, _NEAR, surround.area, boxes)
+    boxes[:, 6] /= whole.sum()
+    found = [
+        Region(float((box[3:6] - box[:3]).max()), _corner(box[:3]), _corner(box[3:6]), float(box[6]))
+        for box in boxes[1:]
+        if box[6] >= _LEAST
+    ]
+    return tuple(sorted(found, key=lambda region: -region.size))
+
+
+def _corner(point: Floats) -> tuple[float, float, float]:
+    return float(point[0]), float(point[1]), float(point[2])
