@@ -312,7 +312,7 @@ def test_two_iterations_are_compared(visit: Visit, fitted: dict[str, Any]) -> No
 def test_marks_and_export(visit: Visit, fitted: dict[str, Any]) -> None:
     page = visit.page
     visit.open("kitchen")
-    page.click("text=the same")
+    page.click(".judgement >> text=the same")
     page.wait_for_selector(".judgement:has-text('1 pair marked')")
     page.keyboard.press("Escape")
     visit.go("feedback")
