@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from shapewright.cli.main import app
 from shapewright.modelling.solids import box
 from shapewright.runs.folder import RunError
+from shapewright.settings import Settings
 
 
 def call(*arguments):
@@ -112,7 +113,7 @@ def test_marks_move_the_cut_of_the_judge(project):
     entries = json.loads((run / "iteration.json").read_text())["references"]
     best = max(entries, key=lambda entry: entry["fidelity"])
     found = call("mark", run, best["name"], "different")
-    assert found["marks"] == 1 and found["replicated"] >= max(min(best["fidelity"], 0.99), 0.5)
+    assert found["marks"] == 1 and found["replicated"] >= max(min(best["fidelity"], 0.99), Settings.replicated)
     assert json.loads((project / "marks.json").read_text())[0]["measures"]["fidelity"] == best["fidelity"]
     arguments = (project / "stool.py", project / "references", *QUICK, "--workers", 1, "--marks", "--out")
     call("fit", *arguments, project / "runs" / "002")
@@ -120,7 +121,7 @@ def test_marks_move_the_cut_of_the_judge(project):
     assert settings["replicated"] == pytest.approx(found["replicated"]) and settings["threshold"] == 0.18
     call("fit", *arguments, project / "runs" / "003", "--judge", "paper")
     settings = json.loads((project / "runs" / "003" / "iteration.json").read_text())["settings"]
-    assert settings["threshold"] == pytest.approx(found["threshold"]) and settings["replicated"] == 0.5
+    assert settings["threshold"] == pytest.approx(found["threshold"]) and settings["replicated"] == Settings.replicated
 
 
 def test_fit_with_marks_needs_marks(project):
