@@ -59,7 +59,7 @@ def test_settings_of_the_predictor_are_checked(wrong):
         ({"threshold": math.nan}, "threshold=nan must be a finite number, greater than 0"),
         ({"vif": 1.0}, "vif=1.0 must be a finite number, greater than 0 and less than 1"),
         ({"judge": "papers"}, "judge='papers' must be fidelity or paper; did you mean paper?"),
-        ({"close": 0.6}, "close=0.6 must be at most replicated=0.5"),
+        ({"close": 0.7}, "close=0.7 must be at most replicated=0.65"),
         ({"metric": (1.0, 2.0, 3.0)}, "metric=(1.0, 2.0, 3.0) must be 4 finite numbers, or None"),
         ({"workers": 0}, "workers=0 must be a whole number, at least 1, or None"),
         ({"weights": 3}, "weights=3 must be a text, or None"),
