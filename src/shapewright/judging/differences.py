@@ -185,7 +185,7 @@ def _regions(surround: Surround, gaps: Any) -> tuple[Region, ...]:
     pixels.sort_into_cells(surround.nearness, surround.area, gaps, _NEAR, AXES, PIXELS, *places, whole, apart)
     numbers, count = label((apart > 0.5 * whole).reshape((pixels.CELLS,) * 3), np.ones((3, 3, 3)))
     boxes = np.tile([np.inf] * 3 + [-np.inf] * 3 + [0.0], (count + 1, 1))
-    pixels.box(numbers.ravel(), *places, gaps, _NEAR, surround.area, boxes)
+    pixels.enclose(numbers.ravel(), *places, gaps, _NEAR, surround.area, boxes)
     boxes[:, 6] /= whole.sum()
     found = [
         Region(float((box[3:6] - box[:3]).max()), _corner(box[:3]), _corner(box[3:6]), float(box[6]))

@@ -169,7 +169,7 @@ def sort_into_cells(
 
 
 @njit(nogil=True, cache=True)
-def box(numbers: Any, cells: Any, points: Any, gaps: Any, beyond: float, area: Any, boxes: Any) -> None:
+def enclose(numbers: Any, cells: Any, points: Any, gaps: Any, beyond: float, area: Any, boxes: Any) -> None:
     """Lows, highs and surface of each numbered region, (R, 7), of the pixels beyond."""
     views, side, _ = gaps.shape
     for c in range(views):
