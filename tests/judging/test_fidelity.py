@@ -6,6 +6,7 @@ import pytest
 
 import shapewright as sw
 from shapewright.judging.fidelity import Fidelity
+from shapewright.judging.judge import target_of
 from shapewright.modelling.drawing import box as area
 from shapewright.modelling.solids import box
 from shapewright.threads import in_threads
@@ -61,3 +62,10 @@ def test_what_cannot_be_compared_is_refused():
 def test_any_thread_may_ask_for_evidence_first():
     judge, replicas = Fidelity(TABLE), [TABLE, THREE_LEGS, TABLE, THREE_LEGS]
     assert in_threads(judge.evidence, replicas, 4) == [Fidelity(TABLE).evidence(replica) for replica in replicas]
+
+
+@pytest.mark.parametrize(("whole", "less"), [(TABLE, THREE_LEGS), (PLATE, RING)], ids=["mesh", "drawing"])
+def test_the_fidelity_alone_is_that_of_the_evidence(whole, less):
+    target = target_of(whole, sw.Settings())
+    assert target.fidelity(less) == target.evidence(less).value
+    assert math.isnan(target.fidelity(None))

@@ -66,6 +66,9 @@ class DrawingTarget:
             return math.nan, 0
         return max(0.0, 1.0 - visual_information_fidelity(self.shape, replica)), 0
 
+    def fidelity(self, replica: Shape | None) -> float:
+        return self.evidence(replica).value
+
     def evidence(self, replica: Shape | None) -> Evidence:
         return self._fidelity.evidence(replica) if self.visible else Evidence(math.nan)
 
@@ -78,7 +81,7 @@ class DrawingTarget:
             distance,
             iou=intersection_over_union(self.shape, replica),
             chamfer=gaps.chamfer,
-            fidelity=self.evidence(replica).value if fidelity is None else fidelity,
+            fidelity=self.fidelity(replica) if fidelity is None else fidelity,
             f1=gaps.f_score(0.01),
             f2=gaps.f_score(0.02),
         )

@@ -83,7 +83,7 @@ class Judge:
         if self.settings.judge == "paper":
             least = self.metric.threshold
             return [Standing(float(apart), int(field), math.nan, float(apart) / least) for apart, field in near]
-        values = [each.value for each in self.evidence(builds, rows)]
+        values = self.fidelities([build.shape for build in builds], rows)
         return [
             Standing(float(distance), int(field), value, apart_of(value, self.settings))
             for (distance, field), value in zip(near, values, strict=True)
@@ -99,6 +99,11 @@ class Judge:
         found = in_threads(lambda pair: pair[0].nearest(pair[1].shape), pairs, self.settings.workers)
         distances, fields = [distance for distance, _ in found], [field for _, field in found]
         return np.array(distances, dtype=np.float64), np.array(fields, dtype=np.int64)
+
+    def fidelities(self, shapes: Sequence[Shape | None], rows: Rows | None = None) -> list[float]:
+        """The fidelity of each shape to its reference, those of ``rows`` or all, without regions; NaN for none."""
+        pairs = zip(self._targets(rows), shapes, strict=True)
+        return in_threads(lambda pair: pair[0].fidelity(pair[1]), pairs, self.settings.workers)
 
     def evidence(self, builds: Sequence[Build], rows: Rows | None = None) -> list[Evidence]:
         """The fidelity of each build to its reference, those of ``rows`` or all, and where the two differ."""

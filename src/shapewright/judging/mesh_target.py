@@ -81,6 +81,9 @@ class MeshTarget:
             return math.nan, 0
         return light_field.distance(own, other, self._settings.align), nearest_field(own, other)
 
+    def fidelity(self, replica: Shape | None) -> float:
+        return self._fidelity.value(replica) if self.visible else math.nan
+
     def evidence(self, replica: Shape | None) -> Evidence:
         return self._fidelity.evidence(replica) if self.visible else Evidence(math.nan)
 
@@ -94,7 +97,7 @@ class MeshTarget:
             iou=views.intersection_over_union(self.shape, replica),
             chamfer=gaps.chamfer,
             depth=views.depth_difference(self.shape, replica),
-            fidelity=self._fidelity.value(replica) if fidelity is None else fidelity,
+            fidelity=self.fidelity(replica) if fidelity is None else fidelity,
             volume_iou=volumes.intersection_over_union(self._volume(), volumes.Volume.of(replica)),
             f1=gaps.f_score(0.01),
             f2=gaps.f_score(0.02),

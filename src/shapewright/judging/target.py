@@ -97,6 +97,9 @@ class Target(Protocol):
     def nearest(self, replica: Shape | None) -> tuple[float, int]:
         """The distance, and the light field in which the two differ least; NaN and 0 where it cannot be measured."""
 
+    def fidelity(self, replica: Shape | None) -> float:
+        """The replica's fidelity alone; NaN where the two cannot be compared."""
+
     def evidence(self, replica: Shape | None) -> Evidence:
         """The replica's fidelity, and the regions in which the two differ."""
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from shapewright.building import Build, Workers
+from shapewright.building import Workers
 from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.comparison.surfaces import area
 from shapewright.feedback.case import Replica
@@ -71,8 +71,7 @@ def nearest_starts(
     costs = judge.search_costs([(row, mesh) for row, _, mesh in made])
     values = [math.nan] * len(made)
     if judge.settings.judge == "fidelity":
-        found = judge.evidence([Build(parameters, mesh) for _, parameters, mesh in made], [row for row, _, _ in made])
-        values = [each.value for each in found]
+        values = judge.fidelities([mesh for _, _, mesh in made], [row for row, _, _ in made])
     several: dict[int, list[Replica]] = {}
     for cost, value, (row, parameters, mesh) in zip(costs, values, made, strict=True):
         if np.isfinite(cost):

@@ -59,7 +59,7 @@ class Sweep:
             target = self.target(slug)
             if target and again.build.shape is not None:
                 replica = again.build.shape.normalised()
-                distance, fidelity = target.nearest(replica)[0], target.evidence(replica).value
+                distance, fidelity = target.nearest(replica)[0], target.fidelity(replica)
                 self.send(Measured(sweep=self.number, slug=slug, fidelity=fidelity, distance=distance), b"")
             yield
         self.send(SweepEnded(sweep=self.number, given_up=False), b"")
