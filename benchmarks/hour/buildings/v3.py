@@ -1,0 +1,47 @@
+"""Buildings, version 3: gables to the front, and roofs with a kink, as barns have. The width of the walls is 1."""
+
+from typing import Annotated, Literal
+
+from shapewright import Range, procedure
+from shapewright.modelling.solids import box, extrude
+
+PARAPET = 0.05  # its thickness, inwards of the walls
+
+
+def pitched(p):
+    return p.roof != "flat"
+
+
+def gable_roof(length, across, height, roof_height, kink, overhang, thickness):
+    """Over walls that long from side to side, the ridge along them. kink: how far the slopes rise above straight."""
+    half = across / 2 + overhang
+    eaves = height - roof_height * overhang / (across / 2)
+    ridge = height + roof_height
+    bent = eaves + (0.5 + kink) * (ridge - eaves)  # halfway between eaves and ridge
+    slope = [(eaves, half), (bent, half / 2), (ridge, 0), (bent, -half / 2), (eaves, -half)]  # (y, z)
+    gable = [(eaves, -half), (eaves, half), *((y + thickness, z) for y, z in slope)]
+    return extrude(gable, length + 2 * overhang).rotate(90, "z").label("roof")
+
+
+def flat_roof(depth, height, overhang, thickness):
+    """A parapet as high as the thickness, out over the walls, and the roof inside it at the walls' height."""
+    outer = box((1 + 2 * overhang, thickness, depth + 2 * overhang), at=(0, height + thickness / 2, 0))
+    return (outer - box((1 - 2 * PARAPET, thickness, depth - 2 * PARAPET), at=(0, height + thickness, 0))).label("roof")
+
+
+@procedure
+def building(
+    depth: Annotated[float, Range(0.4, 1.6)] = 0.8,
+    height: Annotated[float, Range(0.3, 2.5)] = 0.7,  # of the walls
+    roof_height: Annotated[float, Range(0.1, 0.8, when=pitched)] = 0.4,
+    kink: Annotated[float, Range(0, 0.3, when=pitched)] = 0,  # of the roof's height
+    overhang: Annotated[float, Range(0.01, 0.15)] = 0.06,
+    thickness: Annotated[float, Range(0.02, 0.15)] = 0.04,  # of the roof's edge
+    roof: Literal["gable", "front gable", "flat"] = "gable",
+):
+    walls = box((1, height, depth), at=(0, height / 2, 0)).label("walls")
+    if roof == "flat":
+        return walls | flat_roof(depth, height, overhang, thickness)
+    if roof == "gable":
+        return walls | gable_roof(1, depth, height, roof_height, kink, overhang, thickness)
+    return walls | gable_roof(depth, 1, height, roof_height, kink, overhang, thickness).rotate(90)

@@ -1,0 +1,58 @@
+"""Vessels, version 3: bottles and jars, with a shoulder, a neck and a cap. The width is 1."""
+
+from typing import Annotated, Literal
+
+import numpy as np
+
+from shapewright import Range, procedure
+from shapewright.modelling.solids import cone, revolve
+
+
+def is_bottle(p):
+    return p.top == "neck"
+
+
+def is_open(p):
+    return p.top == "open"
+
+
+def open_body(outside, floor, wall, sides):
+    """A hollow body. outside: points (r, y) of its side, from the bottom up; floor: a part of its height."""
+    radii, heights = zip(*outside, strict=True)
+    bottom = floor * heights[-1]
+    deepest = np.interp(bottom, heights, radii) - wall
+    inside = [(r - wall, y) for r, y in outside[:0:-1] if y > bottom + 0.01 * heights[-1]]
+    return revolve([(0, 0), *outside, *inside, (deepest, bottom), (0, bottom)], segments=sides).label("body")
+
+
+def bottle(outside, height, slope, neck, cap, cap_height, cap_top, sides):
+    """A full body with a neck above its side, and a cap."""
+    rim = outside[-1][1]
+    start = rim + slope * (height - rim)
+    high, wide = cap_height * (height - start), cap * neck
+    side = [*outside, (neck / 2, start), (neck / 2, height - high)]
+    body = revolve([(0, 0), *side, (0, height - high)], segments=sides).label("body")
+    return body | cone((wide, high, wide), at=(0, height - high / 2, 0), top=cap_top, segments=sides).label("cap")
+
+
+@procedure
+def vessel(
+    height: Annotated[float, Range(0.1, 4.0)] = 0.8,
+    foot: Annotated[float, Range(0.3, 1.0)] = 0.7,  # parts of the width: at the bottom,
+    belly: Annotated[float, Range(0.6, 1.2)] = 1.0,  # halfway up, of a straight side's,
+    wall: Annotated[float, Range(0.02, 0.1, when=is_open)] = 0.05,
+    floor: Annotated[float, Range(0.03, 0.97, when=is_open)] = 0.1,  # of the height
+    shoulder: Annotated[float, Range(0.4, 0.95, when=is_bottle)] = 0.7,  # of the height
+    slope: Annotated[float, Range(0.02, 0.8, when=is_bottle)] = 0.4,  # of what is above the shoulder
+    neck: Annotated[float, Range(0.15, 0.95, when=is_bottle)] = 0.4,
+    cap: Annotated[float, Range(0.6, 1.5, when=is_bottle)] = 1.2,  # its width, of the neck's
+    cap_height: Annotated[float, Range(0.1, 0.95, when=is_bottle)] = 0.3,  # of what is above the slope
+    cap_top: Annotated[float, Range(0.3, 1.0, when=is_bottle)] = 1.0,  # of its width
+    sides: Annotated[int, Range(6, 16)] = 12,
+    top: Literal["open", "neck"] = "open",
+):
+    rim = shoulder * height if top == "neck" else height
+    outside = [(foot / 2, 0), (belly * (1 + foot) / 4, rim / 2), (0.5, rim)]
+    if top == "open":
+        return open_body(outside, floor, wall, sides)
+    return bottle(outside, height, slope, neck, cap, cap_height, cap_top, sides)
