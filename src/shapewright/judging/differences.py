@@ -7,11 +7,10 @@ from dataclasses import dataclass, fields
 from typing import Any, TypeAlias
 
 import numpy as np
-from scipy.ndimage import label
 
 from shapewright.judging import pixels
 from shapewright.judging.verdict import Region
-from shapewright.rendering.surround import AXES, BELOW, EMPTY, ORDERS, PIXELS, POSES, Surround
+from shapewright.rendering.surround import AXES, BELOW, ORDERS, PIXELS, Surround
 from shapewright.shapes import Floats, Mesh
 
 _DEEP = 0.2  # of the largest extent: depths that differ by more count alike
@@ -25,6 +24,7 @@ _AROUND = 2  # pixels within which two edges are one
 _THIN = 0.02  # of the largest extent: thinner shapes count as this thick when sides are compared
 _WEIGHTS = np.array([1.0] * 5 + [0.25] + [1.0] * 4 + [0.6] * 4)
 """Of the views. People look from above: soups often have no underside, and those labelled by eye were seen so."""
+_SIDES = np.where(np.arange(len(PIXELS)) == BELOW, _WEIGHTS, 1.0) * PIXELS  # of a pixel when regions are compared
 _ALIKE = 0.02  # difference of depth below which no other pose is tried
 _LEAST = 0.004  # share of the surface below which a region is left out
 
@@ -64,16 +64,14 @@ class Look:
 
     mesh: Mesh
     surround: Surround
-    edges: Any  # (14, S, S) bool: where the surface ends, or steps back
+    edges: Any  # see ``Surround.edges``
 
     @classmethod
     def of(cls, mesh: Mesh) -> Look:
         """Raises ValueError for a mesh of no size."""
         normal = mesh.normalised()
         surround = Surround.of(normal)
-        edges = np.zeros(surround.nearness.shape, dtype=np.bool_)
-        pixels.mark_edges(surround.nearness, _JUMP, edges)
-        return cls(normal, surround, edges)
+        return cls(normal, surround, surround.edges(_JUMP))
 
     @property
     def visible(self) -> bool:
@@ -93,6 +91,7 @@ def compare(reference: Look, replica: Look) -> tuple[Differences, Gaps]:
     filled = np.cumsum(bins)
     usual = float(np.searchsorted(filled, filled[-1] / 2.0) * _MOST / (_BINS - 1))
     beside = min(max(_NEAR, _STANDS_OUT * usual), 0.99 * _MOST)
+    missing, surplus = _largest(lost, _NEAR), _largest(extra, _NEAR)
     mean = _mean(depth)
     proportion, unequal = _proportion(reference.mesh, replica.mesh)
     differences = Differences(
@@ -101,12 +100,12 @@ def compare(reference: Look, replica: Look) -> tuple[Differences, Gaps]:
         outline=_mean(outline),
         gap=(lost_gap + extra_gap) / 2.0,
         usual_gap=usual,
-        missing=_largest(lost, _NEAR),
-        surplus=_largest(extra, _NEAR),
+        missing=missing,
+        surplus=surplus,
         far_missing=lost_far,
         far_surplus=extra_far,
-        missing_beside=_largest(lost, beside),
-        surplus_beside=_largest(extra, beside),
+        missing_beside=_largest(lost, beside) if beside > _NEAR else missing,
+        surplus_beside=_largest(extra, beside) if beside > _NEAR else surplus,
         edges=_edges(reference.edges, replica.edges),
         proportion=proportion,
         other_pose=_other_pose(reference, replica, mean),
@@ -126,19 +125,14 @@ def _mean(of_views: Floats) -> float:
 
 def _views(ours: Any, theirs: Any) -> tuple[Floats, Floats]:
     """(14,) each: mean difference of depth where either is, and 1 - IoU of the silhouettes."""
-    both, either = (ours > EMPTY) & (theirs > EMPTY), (ours > EMPTY) | (theirs > EMPTY)
-    covered = np.maximum(either.sum(axis=(1, 2)), 1)
-    apart = np.where(both, np.minimum(np.abs(ours - theirs) / _DEEP, 1.0), either)
-    return apart.sum(axis=(1, 2)) / covered, 1.0 - both.sum(axis=(1, 2)) / covered
+    depths, outlines = np.empty((2, len(ours)))
+    pixels.compare_depths(ours, theirs, _DEEP, depths, outlines)
+    return depths, outlines
 
 
 def _largest(gaps: Any, beyond: float) -> float:
     """The side of the largest connected region of a view; the view from below counts a quarter."""
-    areas = np.empty(len(gaps))
-    pixels.largest_areas(gaps, beyond, areas)
-    sides = np.sqrt(areas) * PIXELS
-    sides[BELOW] *= _WEIGHTS[BELOW]
-    return float(sides.max())
+    return float(pixels.longest_side(gaps, beyond, _SIDES))
 
 
 def _edges(ours: Any, theirs: Any) -> float:
@@ -165,11 +159,9 @@ def _proportion(reference: Mesh, replica: Mesh) -> tuple[float, bool]:
 def _other_pose(reference: Look, replica: Look, depth: float) -> float:
     if depth < _ALIKE:
         return 0.0
-    means = np.empty(len(POSES))
-    pixels.pose_depths(
-        reference.surround.nearness, replica.surround.nearness, *ORDERS, _DEEP, _WEIGHTS / _WEIGHTS.sum(), means
-    )
-    return math.log((float(means[0]) + 0.01) / (float(means[1:].min()) + 0.01))
+    pictures = reference.surround.nearness, replica.surround.nearness
+    own, other = pixels.pose_depths(*pictures, *ORDERS, _DEEP, _WEIGHTS / _WEIGHTS.sum())
+    return math.log((own + 0.01) / (other + 0.01))
 
 
 def _stretch(reference: Look, replica: Look, depth: float) -> float:
@@ -180,20 +172,18 @@ def _stretch(reference: Look, replica: Look, depth: float) -> float:
 
 def _regions(surround: Surround, gaps: Any) -> tuple[Region, ...]:
     """Where the surface is farther than _NEAR from the other, in most of the views that show the place."""
-    whole, apart = np.zeros((2, pixels.CELLS**3))
-    places = np.empty(gaps.shape, dtype=np.int64), np.empty((*gaps.shape, 3))
-    pixels.sort_into_cells(surround.nearness, surround.area, gaps, _NEAR, AXES, PIXELS, *places, whole, apart)
-    numbers, count = label((apart > 0.5 * whole).reshape((pixels.CELLS,) * 3), np.ones((3, 3, 3)))
+    whole, apart = np.zeros((2, pixels.GRID**3))
+    cells, far = pixels.sort_into_cells(surround.nearness, surround.area, gaps, _NEAR, AXES, PIXELS, whole, apart)
+    if not len(cells):
+        return ()
+    numbers = np.zeros(len(whole), dtype=np.int64)
+    count = pixels.connect(apart > 0.5 * whole, numbers)
     boxes = np.tile([np.inf] * 3 + [-np.inf] * 3 + [0.0], (count + 1, 1))
-    pixels.enclose(numbers.ravel(), *places, gaps, _NEAR, surround.area, boxes)
+    pixels.enclose(numbers[cells], far, boxes)
     boxes[:, 6] /= whole.sum()
     found = [
-        Region(float((box[3:6] - box[:3]).max()), _corner(box[:3]), _corner(box[3:6]), float(box[6]))
-        for box in boxes[1:]
+        Region(max(b - a for a, b in zip(box[:3], box[3:6], strict=True)), tuple(box[:3]), tuple(box[3:6]), box[6])
+        for box in boxes[1:].tolist()
         if box[6] >= _LEAST
     ]
     return tuple(sorted(found, key=lambda region: -region.size))
-
-
-def _corner(point: Floats) -> tuple[float, float, float]:
-    return float(point[0]), float(point[1]), float(point[2])

@@ -50,6 +50,12 @@ class Surround:
         _draw(mesh.vertices, mesh.faces, AXES, _REACH, nearness, area)
         return cls(nearness, area)
 
+    def edges(self, jump: float) -> Any:
+        """Where the surface ends or steps back by more than ``jump``: (14, SIZE) uint64, a row in the bits of each."""
+        marks = np.empty(self.nearness.shape, dtype=np.bool_)
+        _mark_edges(self.nearness, jump, marks)
+        return np.packbits(marks, axis=2, bitorder="little").view(np.uint64)[..., 0]
+
 
 POSES: tuple[tuple[int, bool, bool], ...] = tuple(product(range(4), (False, True), (False, True)))
 """Quarter turns about the up axis after it is mirrored (left for right), after it is laid on its head; the first is as
@@ -125,3 +131,17 @@ def _triangle(a: Any, b: Any, c: Any, scale: float, nearness: Any, area: Any) ->
             weight_b += step_b
             weight_c += step_c
             z += step
+
+
+@njit(nogil=True, cache=True)
+def _mark_edges(nearness: Any, jump: float, edges: Any) -> None:
+    views, side, _ = nearness.shape
+    wide = np.full((side + 2, side + 2), np.float32(EMPTY))
+    for c in range(views):
+        wide[1:-1, 1:-1] = nearness[c]
+        for row in range(side):
+            z, above, below = wide[row + 1, 1:-1], wide[row, 1:-1], wide[row + 2, 1:-1]
+            left, right = wide[row + 1, :-2], wide[row + 1, 2:]
+            for column in range(side):
+                lowest = min(min(above[column], below[column]), min(left[column], right[column]))
+                edges[c, row, column] = (z[column] > EMPTY) & (z[column] - lowest > jump)
