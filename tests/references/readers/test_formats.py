@@ -208,8 +208,6 @@ class TestPly:
             (b"ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n0\n", "quad"),
             (b"ply\nformat ascii 1.0\nend_header\n", "no vertices"),
             (b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-             b"element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0\n", "triangle strips"),
-            (b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
              b"end_header\n0 0 zero\n", "zero"),
         ],
     )  # fmt: skip
@@ -236,7 +234,6 @@ class TestOff:
         ("content", "why"),
         [
             (b"solid\n", "does not begin with OFF"),
-            (b"4OFF\n1 1 0\n", "does not begin with OFF"),
             (b"OFF BINARY\n\0\0", "binary OFF"),
             (b"OFF\n", "broken"),
             (b"OFF\n4 2 0\n0 0 0\n", "cut short: 4 vertices and 2 faces announced"),
@@ -261,10 +258,10 @@ class TestReasons:
         )
         assert reason(tmp_path / f"none{kind}") == "no such file or directory"
 
-    @pytest.mark.parametrize("kind", ["stl", "glb", "3mf"])
-    def test_a_file_cut_in_half(self, tmp_path, kind):
+    @pytest.mark.parametrize(("kind", "why"), [("stl", "cut short"), ("glb", "broken"), ("3mf", "broken")])
+    def test_a_file_cut_in_half(self, tmp_path, kind, why):
         content = trimesh.creation.icosphere(2).export(file_type=kind)
-        assert "broken" in reason(put(tmp_path, f"a.{kind}", content[: len(content) // 2]))
+        assert why in reason(put(tmp_path, f"a.{kind}", content[: len(content) // 2]))
 
     @pytest.mark.parametrize("kind", ["ply", "glb"])
     def test_point_clouds(self, tmp_path, kind):

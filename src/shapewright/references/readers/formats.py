@@ -15,10 +15,16 @@ from shapewright.references.readers.off import read_off
 from shapewright.references.readers.ply import read_ply
 from shapewright.references.readers.png import read_png
 from shapewright.references.readers.polygons import Polygons, check_indices, triangulate
+from shapewright.references.readers.stl import read_stl
 from shapewright.references.readers.svg import read_svg
 from shapewright.shapes import Drawing, Floats, Ints, Mesh, Shape
 
-_POLYGONS: dict[str, Callable[[bytes], Polygons]] = {".obj": read_obj, ".off": read_off, ".ply": read_ply}
+_POLYGONS: dict[str, Callable[[bytes], Polygons]] = {
+    ".obj": read_obj,
+    ".off": read_off,
+    ".ply": read_ply,
+    ".stl": read_stl,
+}
 _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {".png": read_png, ".svg": read_svg}
 MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF")
 """Formats of meshes that are read, as people write them. The extension of a file is the name in small letters."""
@@ -29,6 +35,8 @@ _COMPRESSIONS = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_m
 """Extensions of glTF for which trimesh reads zeros or whole numbers in place of the coordinates."""
 _LEAST_AREA = 1e-12
 """Share of the squared extent: a shape whose triangles all cover less shows in no picture."""
+_AT_ONCE = 100_000
+"""Triangles whose areas are held in memory at once, 30 MB of them."""
 
 
 def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
@@ -52,14 +60,22 @@ def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
     try:
         if kind in _DRAWINGS:
             return _DRAWINGS[kind](data)
-        vertices, faces = _read_polygons(kind, data) if kind in _POLYGONS else _read_scene(path, kind, data)
+        if kind in _POLYGONS:
+            polygons = _POLYGONS[kind](data)
+            vertices, faces, notes = polygons.vertices, triangulate(polygons), polygons.notes
+        else:
+            vertices, faces, notes = *_read_scene(path, kind, data), ()
     except UnreadableError:
         raise
     except FileNotFoundError as error:
         raise UnreadableError(f"it needs {error.filename or error}, which is missing") from error
     except Exception as error:  # a broken file can make a parser fail in any way
         raise UnreadableError(f"broken: {type(error).__name__}: {error}") from error
-    return sound(vertices, faces)
+    try:
+        mesh, lost = sound(vertices, faces)
+    except UnreadableError as error:
+        raise UnreadableError("; ".join([str(error), *notes])) from error
+    return mesh, (*notes, *lost)
 
 
 def sound(vertices: Floats, faces: Ints) -> tuple[Mesh, tuple[str, ...]]:
@@ -72,21 +88,23 @@ def sound(vertices: Floats, faces: Ints) -> tuple[Mesh, tuple[str, ...]]:
         raise UnreadableError("no triangle has finite corners: all use NaN or infinity")
     used = np.zeros(len(vertices), dtype=bool)
     used[faces[finite]] = True
-    mesh = Mesh(vertices[used], (np.cumsum(used) - 1)[faces[finite]])
+    whole = bool(used.all() and finite.all())
+    mesh = Mesh(vertices, faces) if whole else Mesh(vertices[used], (np.cumsum(used) - 1)[faces[finite]])
     with np.errstate(over="ignore"):
         size = float(np.ptp(mesh.vertices, axis=0).max())
     if not np.finfo(np.float64).tiny < size < np.inf:
         raise UnreadableError("all its triangles lie at one point" if size < 1.0 else "too large to measure")
-    edges = np.diff(mesh.triangles / size, axis=1)
-    if np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).max() < _LEAST_AREA:
+    if not any(_seen(mesh, size, start) for start in range(0, len(mesh.faces), _AT_ONCE)):
         raise UnreadableError("its triangles have no area: all are lines or points")
     lost = len(faces) - len(mesh.faces)
     return mesh, (f"{lost} of {len(faces)} triangles left out: a corner is not finite",) if lost else ()
 
 
-def _read_polygons(kind: str, data: bytes) -> tuple[Floats, Ints]:
-    polygons = _POLYGONS[kind](data)
-    return polygons.vertices, triangulate(polygons)
+def _seen(mesh: Mesh, size: float, start: int) -> bool:
+    """Whether one of the triangles from ``start`` on has an area that shows, in a mesh of this size."""
+    corners = mesh.vertices[mesh.faces[start : start + _AT_ONCE]] / size
+    edges = np.diff(corners, axis=1)
+    return bool(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).max() >= _LEAST_AREA)
 
 
 def _read_scene(path: Path, kind: str, data: bytes) -> tuple[Floats, Ints]:

@@ -1,4 +1,4 @@
-"""Stanford PLY, ASCII or binary, with polygons of any and of mixed numbers of corners.
+"""Stanford PLY, ASCII or binary, with polygons of any and of mixed numbers of corners, and triangle strips.
 
 Not through trimesh, which cannot read binary files that mix triangles with quads, and cuts concave polygons as fans.
 """
@@ -6,153 +6,107 @@ Not through trimesh, which cannot read binary files that mix triangles with quad
 from __future__ import annotations
 
 import re
-import struct
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.ply_tables import TYPES, Column, Element, Property, ascii_tables, binary_tables
 from shapewright.references.readers.polygons import Polygons
-from shapewright.shapes import Ints
+from shapewright.references.readers.text import PADDING, plain, shown
+from shapewright.shapes import Floats, Ints
 
-_OLD_TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"}
-_NEW_TYPES = {f"{sign}int{8 * size}": f"{sign or 'i'}{size}" for sign in ("", "u") for size in (1, 2, 4, 8)}
-_FLOAT_TYPES = {"float": "f4", "float32": "f4", "double": "f8", "float64": "f8"}
-_TYPES = _OLD_TYPES | _NEW_TYPES | _FLOAT_TYPES
-_STRUCT = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "i8": "q", "u8": "Q", "f4": "f", "f8": "d"}
-_END = re.compile(rb"[\r\n]end_header *(?:\r\n|\r|\n)")
-_ORDER = {"ascii": "<", "binary_little_endian": "<", "binary_big_endian": ">"}
-
-
-@dataclass(frozen=True)
-class _Property:
-    """One property of an element; ``length`` is the type of the count before a list, None for a single value."""
-
-    name: str
-    type: str
-    length: str | None = None
-
-
-@dataclass(frozen=True)
-class _Element:
-    name: str
-    count: int
-    properties: tuple[_Property, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class _Column:
-    """The values of a property in all rows, one row after the other, and how many each row has."""
-
-    values: np.ndarray[tuple[int], np.dtype[np.generic]]
-    counts: Ints
+_BEGIN = re.compile(rb"ply[ \t]*(\r\n|\r|\n)", re.IGNORECASE)
+_ORDER = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_KNOWN = ("vertex", "face", "tristrips", "edge")
+_RESTART = -1  # in the list of a strip: a new strip begins
 
 
 def read_ply(data: bytes) -> Polygons:
     """The polygons of a PLY file's bytes. Raises UnreadableError for a file that is broken or cut short."""
-    encoding, elements, body = _header(data)
+    encoding, elements, body = _header(plain(data))
     if encoding == "ascii":
-        # Numbers as text are laid out like a binary file whose every type is a double.
-        body = np.array(body.split(), dtype=np.float64).tobytes()
-        elements = [replace(e, properties=tuple(_as_double(p) for p in e.properties)) for e in elements]
-    tables: dict[str, Mapping[str, _Column]] = {}
-    start = 0
-    for element in elements:
-        tables[element.name], start = _table(element, body, start, _ORDER[encoding])
-        if {"vertex", "face"} <= tables.keys():
-            break
+        tables, notes = ascii_tables(elements, body.rstrip(PADDING))
+    else:
+        tables, notes = binary_tables(elements, body, _ORDER[encoding])
     if "vertex" not in tables:
-        raise UnreadableError("it has no vertices")
-    vertices = np.stack([tables["vertex"][axis].values.astype(np.float64) for axis in "xyz"], axis=-1)
-    if "tristrips" in tables and "face" not in tables:
-        raise UnreadableError("it holds triangle strips, which are not read; save it with plain faces")
-    faces = tables.get("face", {})
-    loops = faces.get("vertex_indices") or faces.get("vertex_index")
-    if loops is None:
-        return Polygons(vertices, np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64))
-    return Polygons(vertices, loops.values.astype(np.int64), loops.counts)
+        raise UnreadableError(f"it has no vertices, only {', '.join(tables) or 'a header'}")
+    points = _points(tables["vertex"])
+    faces = _lists(tables, "face")
+    strips = _lists(tables, "tristrips")
+    odd = [e for e in elements if e.name not in _KNOWN and any(p.length for p in e.properties) and e.count]
+    if odd and not (faces or strips):
+        raise UnreadableError(f"it holds no faces but elements {odd[0].name!r}, which are not read")
+    notes = (*notes, *(f"{e.count} elements {e.name!r} left out" for e in odd))
+    corners, counts = (_whole(faces.values), faces.counts) if faces else (np.empty(0, np.int64), np.empty(0, np.int64))
+    if strips:
+        triangles = _triangles(_whole(strips.values), strips.counts)
+        corners = np.concatenate([corners, triangles.reshape(-1)])
+        counts = np.concatenate([counts, np.full(len(triangles), 3)])
+    return Polygons(points, corners, counts, notes)
 
 
-def _header(data: bytes) -> tuple[str, list[_Element], bytes]:
+def _header(data: bytes) -> tuple[str, tuple[Element, ...], bytes]:
     """The encoding, the elements and the bytes behind the header."""
-    end = _END.search(data)
-    lines = [line.split() for line in data[: end.start()].decode("latin-1").splitlines() if line.split()] if end else []
-    if end is None or lines[:1] != [["ply"]]:
+    begin = _BEGIN.match(data)
+    # Where lines end in one \r, a \n is the first byte of the body.
+    end = re.compile(rb"[\r\n]end_header[ \t]*(?:%b|\Z)" % (begin[1] if begin else b"")).search(data) if begin else None
+    if begin is None or end is None:
         raise UnreadableError("broken: no PLY header")
-    encoding, elements = "", list[_Element]()
-    for fields in lines:
-        match fields:
+    encoding, elements = "", list[Element]()
+    for line in data[begin.end() : end.start()].decode("latin-1").splitlines():
+        match line.split():
+            case [] | ["comment" | "obj_info", *_]:
+                pass
             case ["format", word, *_]:
                 encoding = word
-            case ["element", name, count]:
-                elements.append(_Element(name, int(count), ()))
-            case ["property", "list", length, kind, name] if elements:
-                elements[-1] = _with(elements[-1], _Property(name, _TYPES[kind], _TYPES[length]))
-            case ["property", kind, name] if elements:
-                elements[-1] = _with(elements[-1], _Property(name, _TYPES[kind]))
+            case ["element", name, count] if count.isdecimal():
+                elements.append(Element(name.casefold(), int(count), ()))
+            case ["property", "list", length, kind, name] if elements and {length, kind} <= TYPES.keys():
+                elements[-1] = elements[-1].having(Property(name.casefold(), TYPES[kind], TYPES[length]))
+            case ["property", kind, name] if elements and kind in TYPES:
+                elements[-1] = elements[-1].having(Property(name.casefold(), TYPES[kind]))
+            case _:
+                raise UnreadableError(f"broken: cannot understand the line {shown(line.encode())} of the header")
     if encoding not in _ORDER:
         raise UnreadableError(f"broken: unknown PLY format {encoding!r}")
-    return encoding, elements, data[end.end() :]
+    names = [element.name for element in elements]
+    if twice := {name for name in names if names.count(name) > 1}:
+        raise UnreadableError(f"broken: the header declares {min(twice)!r} twice")
+    return encoding, tuple(elements), data[end.end() :]
 
 
-def _with(element: _Element, added: _Property) -> _Element:
-    return replace(element, properties=(*element.properties, added))
+def _points(columns: Mapping[str, Column]) -> Floats:
+    if missing := [axis for axis in "xyz" if axis not in columns or columns[axis].is_list]:
+        raise UnreadableError(f"its vertices have no property {missing[0]!r}, only {', '.join(columns)}")
+    return np.stack([columns[axis].values.astype(np.float64) for axis in "xyz"], axis=-1)
 
 
-def _as_double(p: _Property) -> _Property:
-    return replace(p, type="f8", length="f8" if p.length else None)
+def _lists(tables: Mapping[str, Mapping[str, Column]], name: str) -> Column | None:
+    """The corners of the faces or strips; None where the file has none. Raises UnreadableError for another name."""
+    columns = tables.get(name, {})
+    fitting = [key for key in columns if key.replace("_", "").startswith(("vertexind", "vertind", "indices"))]
+    if len(fitting) == 1 and columns[fitting[0]].is_list:
+        return columns[fitting[0]]
+    if any(len(column.counts) for column in columns.values()):
+        raise UnreadableError(f"its elements {name!r} have no one list 'vertex_indices', only {', '.join(columns)}")
+    return None
 
 
-def _table(element: _Element, body: bytes, start: int, order: str) -> tuple[Mapping[str, _Column], int]:
-    """The columns of an element that begins at ``start`` of the body, and where the next one begins."""
-    lengths = _first_lengths(element, body, start, order)
-    fields = list[tuple[str, str] | tuple[str, str, tuple[int]]]()
-    pairs = list(zip(element.properties, lengths, strict=True))
-    for p, length in pairs:
-        fields += [(f"{p.name} count", order + p.length)] if p.length else []
-        fields += [(p.name, order + p.type, (length,))]
-    row = np.dtype(fields)
-    end = start + row.itemsize * element.count
-    if end <= len(body):
-        rows = np.frombuffer(body, row, element.count, start)
-        if all((rows[f"{p.name} count"] == length).all() for p, length in pairs if p.length):
-            columns = {p.name: _Column(rows[p.name].reshape(-1), np.full(len(rows), n)) for p, n in pairs}
-            return columns, end
-    if any(p.length for p in element.properties):
-        return _ragged_table(element, body, start, order)
-    raise _cut_short(element)
+def _whole(values: np.ndarray[tuple[int], np.dtype[np.generic]]) -> Ints:
+    if values.dtype.kind == "f" and not np.all(np.mod(values, 1.0) == 0.0):  # also NaN and infinity
+        raise UnreadableError("broken: a face has a corner that is no whole number")
+    return np.asarray(values.astype(np.int64))
 
 
-def _first_lengths(element: _Element, body: bytes, start: int, order: str) -> list[int]:
-    """How many values each property has in the first row."""
-    if not element.count:
-        return [1 for _ in element.properties]
-    first, _ = _ragged_table(replace(element, count=1), body, start, order)
-    return [int(first[p.name].counts[0]) for p in element.properties]
-
-
-def _ragged_table(element: _Element, body: bytes, start: int, order: str) -> tuple[Mapping[str, _Column], int]:
-    """The same row by row, for lists whose lengths differ."""
-    values: dict[str, list[float]] = {p.name: [] for p in element.properties}
-    counts: dict[str, list[int]] = {p.name: [] for p in element.properties}
-    sizes = {p: np.dtype(p.type).itemsize for p in element.properties}
-    prefixes = {p: struct.Struct(order + _STRUCT[p.length]) for p in element.properties if p.length}
-    try:
-        for _ in range(element.count):
-            for p in element.properties:
-                length = 1
-                if p.length:
-                    length = int(prefixes[p].unpack_from(body, start)[0])
-                    start += prefixes[p].size
-                values[p.name].extend(struct.unpack_from(f"{order}{length}{_STRUCT[p.type]}", body, start))
-                counts[p.name].append(length)
-                start += length * sizes[p]
-    except struct.error as error:
-        raise _cut_short(element) from error
-    columns = {name: _Column(np.array(values[name]), np.array(counts[name], dtype=np.int64)) for name in values}
-    return columns, start
-
-
-def _cut_short(element: _Element) -> UnreadableError:
-    return UnreadableError(f"cut short: it ends among its {element.count} elements {element.name!r}")
+def _triangles(corners: Ints, counts: Ints) -> Ints:
+    """(F, 3): those of strips, every second one turned round, without those that only lead on to the next."""
+    padded = np.insert(corners, np.cumsum(counts) - counts, _RESTART)
+    restarts = np.append(padded, [_RESTART, _RESTART]) == _RESTART
+    at = np.flatnonzero(~(restarts[:-2] | restarts[1:-1] | restarts[2:]))
+    begins = np.maximum.accumulate(np.where(restarts[:-2], np.arange(len(padded)), 0)) + 1
+    faces = padded[at[:, None] + np.arange(3)]
+    turned = (at - begins[at]) % 2 == 1
+    faces[turned] = faces[turned][:, [1, 0, 2]]
+    a, b, c = faces.T
+    return np.asarray(faces[(a != b) & (b != c) & (c != a)])

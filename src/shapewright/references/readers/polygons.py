@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,17 +21,13 @@ class Polygons:
         vertices: (V, 3) float64.
         corners: (C,) int64, the vertices of every polygon, one polygon after the other.
         counts: (P,) int64, the number of corners of each polygon; their sum is C.
+        notes: what of the file was left out.
     """
 
     vertices: Floats
     corners: Ints
     counts: Ints
-
-    @classmethod
-    def of(cls, vertices: Sequence[Sequence[float]], corners: Sequence[int], counts: Sequence[int]) -> Polygons:
-        """Polygons from lists."""
-        points = np.array(vertices, dtype=np.float64).reshape(-1, 3)
-        return cls(points, np.array(corners, dtype=np.int64), np.array(counts, dtype=np.int64))
+    notes: tuple[str, ...] = ()
 
 
 def triangulate(polygons: Polygons) -> Ints:
