@@ -43,6 +43,11 @@ class Failure:
     def __str__(self) -> str:
         return f"{self.kind}: {self.place.says(self.message) if self.place else self.message}"
 
+    @property
+    def where(self) -> object:
+        """Equal for failures of one kind at one line of the author's, whatever their messages say."""
+        return (self.kind, self.place) if self.place else self
+
     def error(self) -> ProcedureError:
         """The same, of a procedure that could not be loaded."""
         return ProcedureError(self.message, self.place, "time" if self.kind == "time" else "broken")
@@ -73,10 +78,11 @@ class Build:
 
 
 def describe_failures(builds: Sequence[Build]) -> str:
-    """The failures in one line a kind of message, commonest first, each with parameters that caused it."""
-    example = {build.failure: build.parameters for build in reversed(builds) if build.failure}
-    counts = Counter(build.failure for build in builds if build.failure).most_common(3)
-    kinds = [f"{count} x {failure}, for example with {_call(example[failure])}" for failure, count in counts]
+    """The failures, one entry a line of the author's, commonest first, each with parameters that caused it."""
+    example = {build.failure.where: build for build in reversed(builds) if build.failure}
+    counts = Counter(build.failure.where for build in builds if build.failure).most_common(3)
+    some = [(count, example[where]) for where, count in counts]
+    kinds = [f"{count} x {build.failure}, for example with {_call(build.parameters)}" for count, build in some]
     return "; ".join(kinds) or "no failures"
 
 

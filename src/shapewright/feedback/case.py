@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from shapewright.building import Build
+from shapewright.feedback.remarks.proportions import Proportion
 from shapewright.feedback.surfaces.areas import Areas
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import Residuals
@@ -24,6 +25,7 @@ CauseKind = Literal[
     "surplus part",
     "wrong form",
     "not such a shape",
+    "not built",
 ]
 
 
@@ -84,8 +86,10 @@ class Case:
     covering: Replica  # the one within the space whose surface has most in common; it may be further by the light field
     covering_residuals: Residuals  # where that differs from the reference: what parameters account for least
     outside: Replica  # the nearest one with longer Ranges
+    proportion: Proportion | None = None  # of the reference, where no parameters give it
     isolation: float | None = None  # mean distance to the nearest references, where it is unlike all others; else None
     causes: tuple[Cause, ...] = ()  # the chief cause first
+    remark: Cause | None = None  # what still differs in a replica that is good enough
 
     @classmethod
     def of(cls, name: str, reference: Mesh, replicated: bool, replica: Replica, residuals: Residuals) -> Case:

@@ -6,15 +6,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from shapewright.building import Build, Workers
+from shapewright.building import Build, Failure, Workers
 from shapewright.feedback.case import Case, DrawnCase, Replica
 from shapewright.feedback.causes.causes import causes
 from shapewright.feedback.causes.drawn_cases import drawn_causes, in_place
+from shapewright.feedback.causes.failures import failures
 from shapewright.feedback.causes.shared import SharedCause, shared_causes
 from shapewright.feedback.suggestions import Suggestion, suggestions
 from shapewright.feedback.surfaces.areas import areas
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible_surface import VisibleSurface
+from shapewright.feedback.trials.tried import Tried
 from shapewright.judging.judge import Judge
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
@@ -32,6 +34,8 @@ class Explanation:
     references: Mapping[str, Case | DrawnCase]  # the case of each reference that has a replica, by its name
     summary: tuple[SharedCause, ...]  # the causes that references share, the one that most share first
     suggestions: tuple[Suggestion, ...] = ()  # what to write next, the largest gain first
+    tried: tuple[Tried, ...] = ()  # every change that was tried, the one that got furthest first
+    source: str = ""  # text of the procedure that is explained
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
 
 
@@ -67,24 +71,32 @@ def explain(
         stages.begin("describe", len(collection))
         judge = Judge.of(collection, settings, cache)
         if references.kind is Drawing:
-            drawings = _drawings(iteration, crew, in_place(judge), stages)
+            stages.begin("differences", 3)
+            built = _built(iteration, crew)
+            drawings = _drawings(iteration, built, crew, in_place(judge), stages)
             stages.end()
-            return _explanation(procedure, drawings, (), stages)
+            return _explanation(procedure, drawings, (), _failed(iteration, built), stages)
         stages.begin("differences", 3)
-        cases = _cases(iteration, crew, judge)
+        built = _built(iteration, crew)
+        cases = _cases(iteration, built, judge)
         stages.begin("causes", 4)
         cases = causes(cases, iteration.predictor, crew, judge, stages)
         unsolved = [case for case in cases if case.nearest.apart > 1.0]
         changes = suggestions(procedure, unsolved, crew, judge, stages) if suggest else ()
         stages.end()
-    return _explanation(procedure, cases, changes, stages)
+    return _explanation(procedure, cases, changes, _failed(iteration, built), stages)
 
 
 def _explanation(
-    procedure: Procedure, cases: Sequence[Case] | Sequence[DrawnCase], changes: tuple[Suggestion, ...], stages: Stages
+    procedure: Procedure,
+    cases: Sequence[Case] | Sequence[DrawnCase],
+    changes: tuple[Suggestion, ...],
+    failed: Sequence[SharedCause],
+    stages: Stages,
 ) -> Explanation:
-    shared = tuple(shared_causes(procedure.space, cases))
-    return Explanation({case.name: case for case in cases}, shared, changes, stages.seconds)
+    shared = (*shared_causes(procedure.space, cases), *failed)
+    by_name = {case.name: case for case in cases}
+    return Explanation(by_name, shared, changes, seconds=stages.seconds, source=procedure.source)
 
 
 def _collection(references: Collection, iteration: Iteration) -> Collection:
@@ -94,10 +106,10 @@ def _collection(references: Collection, iteration: Iteration) -> Collection:
     return collection.turned([turned.get(name, 0) // 90 for name in collection.names]) if turned else collection
 
 
-def _cases(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]:
+def _cases(iteration: Iteration, built: Built, judge: Judge) -> list[Case]:
     """A case for each reference whose replica can be built and measured."""
     results = iteration.results
-    built = [(row, build) for row, build in _built(iteration, crew) if isinstance(build.shape, Mesh)]
+    built = [(row, build) for row, build in built if isinstance(build.shape, Mesh)]
     standings = judge.standings([build for _, build in built], [row for row, _ in built])
     found = [Replica.of(row, build, standing) for (row, build), standing in zip(built, standings, strict=True)]
     replicas = [replica for replica in found if replica]
@@ -111,10 +123,9 @@ def _cases(iteration: Iteration, crew: Workers, judge: Judge) -> list[Case]:
     return in_threads(case, replicas, judge.settings.workers)
 
 
-def _drawings(iteration: Iteration, crew: Workers, judge: Judge, stages: Stages) -> list[DrawnCase]:
+def _drawings(iteration: Iteration, built: Built, crew: Workers, judge: Judge, stages: Stages) -> list[DrawnCase]:
     """The same of drawings, with their causes. judge: ``in_place``."""
-    stages.begin("differences", 3)
-    built = [(row, build) for row, build in _built(iteration, crew) if isinstance(build.shape, Drawing)]
+    built = [(row, build) for row, build in built if isinstance(build.shape, Drawing)]
     standings = judge.standings([build for _, build in built], [row for row, _ in built])
     cases = []
     for (row, build), standing in zip(built, standings, strict=True):
@@ -127,9 +138,23 @@ def _drawings(iteration: Iteration, crew: Workers, judge: Judge, stages: Stages)
     return drawn_causes(cases, iteration.predictor, crew, judge, stages)
 
 
-def _built(iteration: Iteration, crew: Workers) -> list[tuple[int, Build]]:
-    """The iteration's replicas with the rows of their references, built again: files keep them in single precision."""
+Built = list[tuple[int, Build]]
+"""Builds with the rows of their references."""
+
+
+def _failed(iteration: Iteration, built: Built) -> list[SharedCause]:
+    return failures([iteration.names[row] for row, _ in built], [build for _, build in built])
+
+
+def _built(iteration: Iteration, crew: Workers) -> Built:
+    """The iteration's replicas, built again: files keep them in single precision; and those that fail, to tell why."""
     names = crew.procedure.space.names
-    known = {row: r.parameters for row, r in enumerate(iteration) if r.replica is not None and r.parameters}
+    wanted = [(row, r) for row, r in enumerate(iteration) if r.replica is not None or _tells(r.error)]
+    known = {row: result.parameters for row, result in wanted if result.parameters}
     builds = crew.build([{name: values[name] for name in names} for values in known.values()], give_up=True)
     return list(zip(known, builds, strict=True))
+
+
+def _tells(error: str | None) -> bool:
+    """Whether a failure may be tried again: not one that takes all the time or memory that there is."""
+    return error is not None and Failure.parse(error).kind in ("raised", "infeasible")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import shutil
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +14,14 @@ import numpy as np
 
 from shapewright.feedback.case import Case, Cause, DrawnCase
 from shapewright.feedback.causes.shared import SharedCause
+from shapewright.feedback.causes.told import shown_regions
 from shapewright.feedback.explanation import Explanation
 from shapewright.feedback.suggestions import Suggestion
 from shapewright.feedback.surfaces.residuals import Region
+from shapewright.feedback.trials.tried import Tried
 from shapewright.report import write_report
 from shapewright.report.explained import PICTURES
+from shapewright.runs.difference import changed
 from shapewright.runs.folder import EXPLANATION, RunError
 from shapewright.storage import scratch_folder
 
@@ -28,7 +32,8 @@ def record_of(explanation: Explanation) -> dict[str, Any]:
         "format": 1,
         "references": {name: _case(case) for name, case in explanation.references.items()},
         "summary": [_shared(cause) for cause in explanation.summary],
-        "suggestions": [_suggestion(suggestion) for suggestion in explanation.suggestions],
+        "suggestions": [_suggestion(suggestion, explanation.source) for suggestion in explanation.suggestions],
+        "tried": [_tried(tried) for tried in explanation.tried],
         "seconds": {stage: round(seconds, 2) for stage, seconds in explanation.seconds.items()},
     }
 
@@ -80,13 +85,20 @@ def _case(case: Case | DrawnCase) -> dict[str, Any]:
         own, placed = case.replica.mesh.normalisation(), case.residuals.placement
         centre = (np.array(placed.centre) - own.centre) * own.scale
         placement = {"centre": _rounded(centre), "scale": round(placed.scale / own.scale, 5)}
-    regions = [*case.covering_residuals.of("unexplained"), *case.residuals.of("surplus")]
     return {
         "causes": [_cause(cause) for cause in case.causes],
-        "regions": [_region(region) for region in sorted(regions, key=lambda region: -region.weight)],
+        "remark": _cause(case.remark) if isinstance(case, Case) and case.remark else None,
+        "regions": [_region(region) for region in _regions(case)],
         "placement": placement,
         "dimensions": case.residuals.dimensions,
     }
+
+
+def _regions(case: Case | DrawnCase) -> Sequence[Region]:
+    if isinstance(case, Case):
+        return shown_regions(case)
+    both = [*case.covering_residuals.of("unexplained"), *case.residuals.of("surplus")]
+    return sorted(both, key=lambda region: -region.weight)
 
 
 def _cause(cause: Cause) -> dict[str, Any]:
@@ -114,10 +126,17 @@ def _shared(cause: SharedCause) -> dict[str, Any]:
     return record | vars(outside) if outside else record
 
 
-def _suggestion(suggestion: Suggestion) -> dict[str, Any]:
+def _suggestion(suggestion: Suggestion, source: str) -> dict[str, Any]:
+    """source: of the procedure without the change."""
     picture = base64.b64encode(suggestion.picture).decode("ascii")
     own = {"picture": picture, "references": list(suggestion.references), "tried": dict(suggestion.tried)}
-    return {**vars(suggestion), **own, "gain": suggestion.gain}
+    diff = [vars(line) for line in changed(source, suggestion.source)] if source and suggestion.source else []
+    return {**vars(suggestion), **own, "gain": suggestion.gain, "diff": diff}
+
+
+def _tried(tried: Tried) -> dict[str, Any]:
+    best = round(tried.best, 3) if math.isfinite(tried.best) else None
+    return {**vars(tried), "best": best, "seconds": round(tried.seconds, 2)}
 
 
 def _rounded(values: Any) -> list[float]:

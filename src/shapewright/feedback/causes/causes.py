@@ -7,7 +7,7 @@ from dataclasses import replace
 from operator import attrgetter
 
 from shapewright.building import Workers
-from shapewright.feedback.case import Case, updated
+from shapewright.feedback.case import Case, Replica, updated
 from shapewright.feedback.causes.better_replicas import (
     covering_replicas,
     knows,
@@ -21,10 +21,13 @@ from shapewright.feedback.causes.leaning import leaning
 from shapewright.feedback.causes.longer_ranges import replicas_outside
 from shapewright.feedback.causes.outliers import isolation, outliers
 from shapewright.feedback.causes.poses import standings
+from shapewright.feedback.causes.told import remark
+from shapewright.feedback.remarks.proportions import Proportion, Reach
 from shapewright.feedback.surfaces.placement import Overlay
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.judging.judge import Judge
 from shapewright.judging.mesh_target import MeshTarget
+from shapewright.parameters import ParameterSpace
 from shapewright.prediction.predictor import Predictor
 from shapewright.progress import Stages
 from shapewright.threads import in_threads
@@ -33,16 +36,20 @@ from shapewright.threads import in_threads
 def causes(
     cases: Sequence[Case], predictor: Predictor | None, crew: Workers, judge: Judge, stages: Stages
 ) -> list[Case]:
-    """The same cases; those that are not replicated know better replicas and their causes."""
+    """The same cases; those that are not replicated know better replicas and their causes, the others what differs."""
+    space, settings = crew.procedure.space, judge.settings
+    good = [case for case in cases if case.replicated]
+    remarks = in_threads(remark, good, settings.workers)
+    cases = updated(cases, [replace(case, remark=said) for case, said in zip(good, remarks, strict=True)])
     misfits = [case for case in cases if not case.replicated]
     if not misfits:
-        return list(cases)
-    space, settings = crew.procedure.space, judge.settings
+        return cases
     misfits = _searched(misfits, predictor, crew, judge, stages)
     misfits = _compared(misfits, judge)
     misfits = [replace(case, causes=diagnosed(space, case)) for case in misfits]
     lacking = [case for case in misfits if case.causes[0].kind == "missing part"]
-    leans = leaning(crew, [(case.covering.parameters, case.overlay) for case in lacking], settings.workers)
+    standing = [(case.covering.parameters, case.overlay) for case in lacking]
+    leans = leaning(crew, standing, settings.workers, [case.replica.mesh for case in lacking])
     leaning_ones = [or_leaning(case, lean) for case, lean in zip(lacking, leans, strict=True)]
     misfits = updated(misfits, leaning_ones)
     stood = standings(misfits, predictor if predictor and knows(predictor, space) else None, crew, settings.workers)
@@ -73,10 +80,19 @@ def _searched(
     misfits = [replace(case, nearest=new, outside=new) for case, new in zip(misfits, nearest, strict=True)]
     stages.step(2, 4)
     some = [case for case in misfits if case.nearest.apart > 1.0]
-    outside = replicas_outside([case.nearest for case in some], crew, judge)
-    misfits = updated(misfits, [replace(case, outside=new) for case, new in zip(some, outside, strict=True)])
+    reach = Reach.of(crew, judge.settings.seed) if some else None
+    beyond = [reach.beyond(case.reference, case.replica.mesh) if reach else None for case in some]
+    outside = replicas_outside([case.nearest for case in some], crew, judge, beyond)
+    found = zip(some, outside, beyond, strict=True)
+    misfits = updated(misfits, [_outside(space, *one) for one in found])
     stages.step(3, 4)
     return misfits
+
+
+def _outside(space: ParameterSpace, case: Case, outside: Replica, proportion: Proportion | None) -> Case:
+    """The case with what longer Ranges bring; a replica within them that this search finds may be the nearest."""
+    within = outside.apart < case.nearest.apart and not space.outside(outside.parameters)
+    return replace(case, outside=outside, nearest=outside if within else case.nearest, proportion=proportion)
 
 
 def _compared(misfits: Sequence[Case], judge: Judge) -> list[Case]:

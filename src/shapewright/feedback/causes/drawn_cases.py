@@ -13,7 +13,7 @@ from shapewright.feedback.case import Cause, DrawnCase
 from shapewright.feedback.causes.better_replicas import affordable, nearer, prediction_of
 from shapewright.feedback.causes.diagnosis import overlooked, too_short
 from shapewright.feedback.causes.longer_ranges import replicas_outside
-from shapewright.feedback.causes.structure import part_causes
+from shapewright.feedback.causes.told import drawn_causes_of
 from shapewright.feedback.surfaces.areas import areas
 from shapewright.judging.drawing_target import DrawingTarget
 from shapewright.judging.judge import Judge
@@ -91,7 +91,7 @@ def _diagnosed(space: ParameterSpace, case: DrawnCase) -> tuple[Cause, ...]:
     """The causes of a drawing that is not replicated, the chief one first."""
     if case.nearest.distance <= SAME < case.replica.distance:
         return (overlooked(space, case.replica, case.nearest, _APART),)
-    wishes = too_short(space, case.nearest, case.outside, _APART)
+    wishes = too_short(space, case, _APART)
     if wishes and case.outside.distance <= SAME:
         return wishes
-    return (*part_causes(case.covering_residuals), *wishes)
+    return (*drawn_causes_of(case.covering_residuals), *wishes)

@@ -8,9 +8,11 @@ from dataclasses import replace
 from shapewright.building import Workers
 from shapewright.feedback.case import Replica
 from shapewright.feedback.causes.better_replicas import ENOUGH, affordable, as_near_as, measured, nearer
+from shapewright.feedback.remarks.proportions import Proportion
 from shapewright.judging.judge import Judge
-from shapewright.parameters import End, Integer, ParameterSpace, Prediction
+from shapewright.parameters import End, Integer, Parameters, ParameterSpace, Prediction
 from shapewright.search.budgets import Budget
+from shapewright.search.candidates import others
 from shapewright.search.moves import Probe, Scan, Step
 from shapewright.search.search import SearchStart, refine
 
@@ -24,16 +26,26 @@ _SHARE = 0.4  # of the evaluations for all references
 _TURNS = 2  # a longer Range may bring parameters to the ends of others
 _CLOSE = 0.4  # of the threshold: beyond a Range the surfaces have to come together as well
 _NEXT, _OTHER = 0.1, 1e-6  # likelihoods of the next integer and of any other class, where the known one's is 1
+_CHOICES = 6  # other choices that a wished proportion is tried with
 _LEVEL = 0.1  # part of what longer Ranges bring that is not worth one of them
 
 
-def replicas_outside(known: Sequence[Replica], crew: Workers, judge: Judge) -> list[Replica]:
+def replicas_outside(
+    known: Sequence[Replica],
+    crew: Workers,
+    judge: Judge,
+    proportions: Sequence[Proportion | None] | None = None,
+) -> list[Replica]:
     """The nearest replicas when the Ranges are longer at the ends that the known parameters rest on.
 
-    A parameter lies outside its Range only where that pays.
+    A parameter lies outside its Range only where that pays. proportions: of each reference the one that no parameters
+    give; a search then begins where its limit would have to be.
     """
     space = crew.procedure.space
     best, ends = list(known), [space.pressed(replica.parameters) for replica in known]
+    for i, replica in _begun(known, proportions or [], crew, judge).items():
+        best[i] = replica
+        ends[i] |= {(excess.parameter, excess.side) for excess in space.outside(replica.parameters)}
     todo = [i for i, free in enumerate(ends) if free]
     for _ in range(_TURNS):
         if not todo:
@@ -63,6 +75,29 @@ def _searched(known: Sequence[Replica], ends: Sequence[set[End]], crew: Workers,
         judge.settings.seed,
     )
     return nearer(known, vectors, crew, judge)
+
+
+def _begun(
+    known: Sequence[Replica], proportions: Sequence[Proportion | None], crew: Workers, judge: Judge
+) -> dict[int, Replica]:
+    """Nearer replicas with the limit of a proportion where it would have to be, by their place among those known.
+
+    Tried with the known parameters, and with one choice changed.
+    """
+    space, wide = crew.procedure.space, crew.procedure.space.widened()
+    asked: list[tuple[int, Parameters]] = []
+    for i, proportion in enumerate(proportions):
+        if proportion and proportion.limit and (wish := proportion.wish()) is not None:
+            name, centre = proportion.limit.parameter, space.encode(known[i].parameters)
+            several = [known[i].parameters, *(space.decode(other) for other in others(space, centre)[:_CHOICES])]
+            wished = (wide.clipped({**values, name: wish}, [name]) for values in several)
+            asked += [(i, values) for values in wished if name in space.active(values)]
+    best: dict[int, Replica] = {}
+    found = measured([(known[i].row, values) for i, values in asked], crew, judge)
+    for (i, _), replica in zip(asked, found, strict=True):
+        if replica and replica.apart < best.get(i, known[i]).apart:
+            best[i] = replica
+    return best
 
 
 def _pulled_back(known: Sequence[Replica], best: Sequence[Replica], crew: Workers, judge: Judge) -> list[Replica]:

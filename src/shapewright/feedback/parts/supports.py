@@ -27,12 +27,12 @@ def splayed(part: Mesh, factors: Floats) -> Mesh:
     return Mesh((part.vertices - middle) * (1.0 + (factors - 1.0) * np.clip(down, 0.0, 1.0)) + middle, part.faces)
 
 
-def with_splayed(replica: Mesh, label: str, factor: float) -> Mesh:
-    """A replica with one labelled part splayed by the factor, as a soup."""
+def with_splayed(replica: Mesh, label: str, factor: float, deeper: float) -> Mesh:
+    """A replica with one labelled part splayed by the factors from left to right and from front to back, as a soup."""
     assert replica.face_labels is not None
     of_part = replica.face_labels == replica.label_names.index(label)
     rest, part = Mesh(replica.vertices, replica.faces[~of_part]), Mesh(replica.vertices, replica.faces[of_part])
-    leaning = splayed(part, np.array([factor, 1.0, factor]))
+    leaning = splayed(part, np.array([factor, 1.0, deeper]))
     return concatenate([rest, leaning]) if len(rest.faces) else leaning
 
 

@@ -16,6 +16,7 @@ from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.shapes import Floats, Ints, Mesh, Transform
 
 RegionSide = Literal["unexplained", "surplus"]
+SIDES: tuple[RegionSide, RegionSide] = ("unexplained", "surplus")
 FAR, NEAR = 0.04, 0.02
 """A region holds a point further than FAR from the other surface, and all points around it further than NEAR."""
 LEAST = 0.004
@@ -67,6 +68,12 @@ class Residuals:
 
     def of(self, side: RegionSide) -> tuple[Region, ...]:
         return tuple(region for region in self.regions if region.side == side)
+
+    @property
+    def reference_bounds(self) -> Floats:
+        """(2, 3): of what can be seen of the reference."""
+        points = self.reference.points[self.reference.visible]
+        return np.stack([points.min(axis=0), points.max(axis=0)])
 
 
 def residuals(reference: Mesh | VisibleSurface, replica: Mesh) -> Residuals:

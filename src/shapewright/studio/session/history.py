@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from msgspec.structs import replace
 
 from shapewright.runs.changes import Move as RunMove
 from shapewright.runs.changes import compare
+from shapewright.runs.difference import difference
 from shapewright.runs.folder import EXPLANATION, RECORD, RunError, read_record
 from shapewright.runs.result import grade_in, judge_in
 from shapewright.studio.session.board import counted
@@ -110,19 +110,5 @@ def comparison(
         same=len(nows.keys() & thens.keys()) - sum(map(len, moved.values())),
         added=list(changes.added),
         removed=list(changes.removed),
-        diff=list(difference(source_of(before), source_of(after))),
+        diff=[DiffLine(**vars(line)) for line in difference(source_of(before), source_of(after))],
     )
-
-
-def difference(before: str, after: str) -> Iterator[DiffLine]:
-    """Two texts line by line: what both have, what was removed, what was added; with the numbers of the lines."""
-    old, new = before.splitlines(), after.splitlines()
-    for change, i, i_end, j, j_end in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
-        if change == "equal":
-            for k in range(i_end - i):
-                yield DiffLine(kind="same", before=i + k + 1, after=j + k + 1, text=old[i + k])
-            continue
-        for k in range(i, i_end):
-            yield DiffLine(kind="removed", before=k + 1, after=None, text=old[k])
-        for k in range(j, j_end):
-            yield DiffLine(kind="added", before=None, after=k + 1, text=new[k])

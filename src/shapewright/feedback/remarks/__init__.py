@@ -1,0 +1,1 @@
+"""Remarks: what an author would say of a difference, as facts first and then in words."""
