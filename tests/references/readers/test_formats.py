@@ -297,14 +297,6 @@ class TestReasons:
     def test_a_sheet_without_thickness_is_fine(self, tmp_path):
         assert len(triangles(put(tmp_path, "a.obj", SQUARE + b"f 1 2 3 4\nf 4 3 2 1\n"))) == 4
 
-    @pytest.mark.parametrize("kind", ["gltf", "glb"])
-    def test_compressed_gltf_is_refused_rather_than_misread(self, tmp_path, kind):
-        header = {"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"]}
-        text = json.dumps(header).encode()
-        binary = struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
-        path = put(tmp_path, f"a.{kind}", binary if kind == "glb" else text)
-        assert reason(path) == "compressed with KHR_draco_mesh_compression; save it without compression"
-
     def test_another_kind_of_file(self, tmp_path):
         assert ".obj" in reason(put(tmp_path, "a.fbx", b"x"))
 

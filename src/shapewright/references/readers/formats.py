@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import io
-import json
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.gltf.scene import read_gltf
 from shapewright.references.readers.obj import read_obj
 from shapewright.references.readers.off import read_off
 from shapewright.references.readers.ply import read_ply
@@ -25,14 +25,16 @@ _POLYGONS: dict[str, Callable[[bytes], Polygons]] = {
     ".ply": read_ply,
     ".stl": read_stl,
 }
+_SCENES: dict[str, Callable[[Path, bytes], tuple[Floats, Ints, tuple[str, ...]]]] = {
+    ".glb": read_gltf,
+    ".gltf": read_gltf,
+}
 _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {".png": read_png, ".svg": read_svg}
 MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF")
 """Formats of meshes that are read, as people write them. The extension of a file is the name in small letters."""
 MESHES = tuple(f".{name.lower()}" for name in MESH_FORMATS)
 EXTENSIONS = tuple(sorted((*MESHES, *_DRAWINGS)))
 
-_COMPRESSIONS = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"}
-"""Extensions of glTF for which trimesh reads zeros or whole numbers in place of the coordinates."""
 _LEAST_AREA = 1e-12
 """Share of the squared extent: a shape whose triangles all cover less shows in no picture."""
 _AT_ONCE = 100_000
@@ -63,6 +65,8 @@ def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
         if kind in _POLYGONS:
             polygons = _POLYGONS[kind](data)
             vertices, faces, notes = polygons.vertices, triangulate(polygons), polygons.notes
+        elif kind in _SCENES:
+            vertices, faces, notes = _SCENES[kind](path, data)
         else:
             vertices, faces, notes = *_read_scene(path, kind, data), ()
     except UnreadableError:
@@ -109,8 +113,6 @@ def _seen(mesh: Mesh, size: float, start: int) -> bool:
 
 def _read_scene(path: Path, kind: str, data: bytes) -> tuple[Floats, Ints]:
     """The triangles of every mesh in a scene, where the scene places them; (0, 3) faces where it has none."""
-    if kind in (".glb", ".gltf"):
-        _refuse_compression(data)
     import trimesh
 
     scene = trimesh.load_scene(
@@ -129,10 +131,3 @@ def _read_scene(path: Path, kind: str, data: bytes) -> tuple[Floats, Ints]:
             faces.append(np.asarray(geometry.faces, dtype=np.int64) + start)
         start += len(geometry.vertices)
     return np.concatenate(vertices), np.concatenate(faces)
-
-
-def _refuse_compression(data: bytes) -> None:
-    header = data[20 : 20 + int.from_bytes(data[12:16], "little")] if data.startswith(b"glTF") else data
-    compressions = _COMPRESSIONS.intersection(json.loads(header).get("extensionsRequired", ()))
-    if compressions:
-        raise UnreadableError(f"compressed with {', '.join(sorted(compressions))}; save it without compression")

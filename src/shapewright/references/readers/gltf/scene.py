@@ -1,0 +1,99 @@
+"""A glTF file, read into the triangles of the scene that it shows."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import msgspec
+import numpy as np
+
+from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.gltf.accessors import Accessors, accessors
+from shapewright.references.readers.gltf.buffers import views
+from shapewright.references.readers.gltf.container import unpack
+from shapewright.references.readers.gltf.document import INSTANCES, Document, Node, Primitive, at, extension, parse
+from shapewright.references.readers.gltf.graph import graph, trs
+from shapewright.references.readers.gltf.primitives import Geometry, geometry, has_triangles, size
+from shapewright.references.readers.gltf.skins import joint_matrices, posed
+from shapewright.references.readers.scene_parts import Piece, join, placed, refuse_too_many
+from shapewright.shapes import Floats, Ints
+
+
+class _Instances(msgspec.Struct, rename="camel", frozen=True):
+    attributes: dict[str, int] = {}
+
+
+_USUAL = {"TRANSLATION": (0.0, 0.0, 0.0), "ROTATION": (0.0, 0.0, 0.0, 1.0), "SCALE": (1.0, 1.0, 1.0)}
+"""What of an instance counts where it is not told."""
+
+
+def read_gltf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
+    """Vertices (V, 3) and faces (F, 3) of a glTF file's bytes, and notes on what was left out.
+
+    Meshes stand where the scene shows them: by their nodes, their instances, or the joints of their skin; morph targets
+    count as their default weights say. Points and lines, materials and motion are left out. Files beside it are looked
+    for in its own folder. Raises UnreadableError, with the reason.
+    """
+    container = unpack(data)
+    document, unknown = parse(container.text)
+    read_view = views(document, path.parent, container.binary)
+    arrays = accessors(document, read_view, len(data))
+    shown = graph(document)
+    places = [(place.matrix, document.nodes[place.node]) for place in shown.shown]
+    copies = [(matrix @ _instances(node, arrays), node) for matrix, node in places]
+    primitives = [(p, len(matrices)) for matrices, node in copies for p in _primitives(document, node)]
+    refuse_too_many(sum(count * size(p, arrays) for p, count in primitives if has_triangles(p)))
+    others = sum(count for p, count in primitives if not has_triangles(p))
+
+    @cache
+    def geometries(mesh: int, morph: tuple[float, ...]) -> list[Geometry]:
+        found = at(document.meshes, mesh, "mesh").primitives
+        return [geometry(p, morph, arrays, read_view) for p in found if has_triangles(p)]
+
+    pieces, spare = list[Piece](), 0
+    for matrices, node in copies:
+        joints = None if node.skin is None else joint_matrices(document, node.skin, shown.matrices, arrays)
+        for part in geometries(*_mesh(document, node)):
+            spare += part.spare * len(matrices)
+            if joints is not None and part.joints.size:
+                pieces.append((posed(part, joints), part.faces))
+            else:
+                pieces += (placed(part.vertices, part.faces, matrix) for matrix in matrices)
+    vertices, faces = join(pieces)
+    if others and not len(faces):
+        raise UnreadableError("no triangles, only points or lines")
+    notes = [f"{others} primitives left out: points, lines, or without positions"] if others else []
+    notes += [f"{spare} corners left out: they are no whole triangle"] if spare else []
+    return vertices, faces, (*container.notes, *unknown, *shown.notes, *notes)
+
+
+def _mesh(document: Document, node: Node) -> tuple[int, tuple[float, ...]]:
+    """The mesh of a node that has one, and the weights of its morph targets."""
+    assert node.mesh is not None
+    weights = at(document.meshes, node.mesh, "mesh").weights if node.weights is None else node.weights
+    return node.mesh, tuple(weights)
+
+
+def _primitives(document: Document, node: Node) -> list[Primitive]:
+    return at(document.meshes, _mesh(document, node)[0], "mesh").primitives
+
+
+def _instances(node: Node, arrays: Accessors) -> Floats:
+    """The matrices (I, 4, 4) of the copies of a node's mesh, in the frame of the node; one where it has no copies."""
+    instances = extension(node.extensions, INSTANCES, _Instances)
+    if instances is None or not instances.attributes:
+        return np.eye(4)[None]
+    if node.skin is not None:
+        raise UnreadableError("a mesh with a skin and with instances, which no rule places")
+    given = {name: instances.attributes.get(name) for name in _USUAL}
+    counts = {at(arrays.described, index, "accessor").count for index in instances.attributes.values()}
+    if len(counts) > 1:
+        raise UnreadableError(f"broken: attributes of instances of {', '.join(map(str, sorted(counts)))} elements")
+    refuse_too_many(max(counts))
+    return trs(
+        *(
+            np.tile(usual, (*counts, 1)) if (index := given[name]) is None else arrays.floats(index, len(usual))
+            for name, usual in _USUAL.items()
+        )
+    )
