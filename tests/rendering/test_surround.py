@@ -40,3 +40,9 @@ def test_a_cube_shows_six_unit_faces():
     seen = Surround.of(Mesh(corners, faces))
     assert seen.area[:6].sum(axis=(1, 2)) == pytest.approx(1.0, abs=0.05)
     assert seen.area[6:].sum(axis=(1, 2)) == pytest.approx(3.0, abs=0.15)
+
+
+def test_views_that_are_drawn_alone_are_those_of_all(soup):
+    whole, some = Surround.of(soup), Surround.of(soup, slice(4, 7))
+    assert (some.nearness == whole.nearness[4:7]).all() and (some.area == whole.area[4:7]).all()
+    assert (some.nearness > EMPTY).any()

@@ -1,6 +1,7 @@
 """Kernels on the pictures of two shapes from all sides, see ``rendering.surround``.
 
-Places in flat pictures are unsigned: numba asks of a signed index whether it is negative.
+Places in flat pictures are unsigned: numba asks of a signed index whether it is negative. Where sums may be taken in
+any order ("reassoc"), the processor adds several pixels at once.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ CELLS = 28  # along the largest extent, of the grid in which regions are connect
 GRID = CELLS + 2  # with an empty one at either end
 
 
-@njit(nogil=True, cache=True)
+@njit(nogil=True, cache=True, fastmath={"reassoc"})
 def compare_depths(ours: Any, theirs: Any, deep: float, depths: Any, outlines: Any) -> None:
     """(V,) each: the mean difference of depth where either is, and 1 - intersection over union of the silhouettes.
 
@@ -108,14 +109,16 @@ def summarise(gaps: Any, area: Any, weights: Any, far: float, most: float, bins:
 def longest_side(gaps: Any, beyond: float, pixels: Any) -> float:
     """The side, as the root of its area, of the largest connected region of a view; pixels: (V,), their sides.
 
-    Neighbours touch at sides or corners. A view that cannot hold a larger region is passed over.
+    Neighbours touch at sides or corners. Views that cannot hold a larger region are passed over.
     """
     views, side, _ = gaps.shape
     stack = np.empty((side * side, 2), np.int64)
-    longest = 0.0
+    counts = np.empty(views)
     for c in range(views):
-        waits = gaps[c] > beyond
-        left = np.count_nonzero(waits)
+        counts[c] = np.count_nonzero(gaps[c] > beyond)
+    longest = 0.0
+    for c in np.argsort(-np.sqrt(counts) * pixels):
+        waits, left = gaps[c] > beyond, counts[c]
         for row in range(side):
             if left <= 2 or math.sqrt(left) * pixels[c] <= longest:
                 break
@@ -197,7 +200,7 @@ def pose_depths(ours: Any, theirs: Any, sources: Any, turns: Any, deep: float, w
     return first, best
 
 
-@njit(nogil=True, cache=True)
+@njit(nogil=True, cache=True, fastmath={"reassoc"})
 def _turned_depth(ours: Any, theirs: Any, turn: Any, deep: float) -> float:
     side = len(ours)
     a, b, e, f = turn

@@ -44,10 +44,10 @@ class Surround:
     area: Any  # (14, SIZE, SIZE) float32: of the surface in a pixel, in squares of the largest extent; 0 where empty
 
     @classmethod
-    def of(cls, mesh: Mesh) -> Surround:
-        """The mesh has to be normalised."""
-        nearness, area = np.empty((2, len(AXES), SIZE, SIZE), dtype=np.float32)
-        _draw(mesh.vertices, mesh.faces, AXES, _REACH, nearness, area)
+    def of(cls, mesh: Mesh, views: slice = slice(None)) -> Surround:
+        """The mesh has to be normalised. views: those of VIEWS that are drawn, (V,) instead of 14."""
+        nearness, area = np.empty((2, len(AXES[views]), SIZE, SIZE), dtype=np.float32)
+        _draw(mesh.vertices, mesh.faces, AXES[views], _REACH[views], nearness, area)
         return cls(nearness, area)
 
     def edges(self, jump: float) -> Any:
@@ -98,36 +98,44 @@ def _draw(vertices: Any, faces: Any, axes: Any, reach: Any, nearness: Any, area:
         nearness[c] = EMPTY
         area[c] = 0.0
         for f in range(len(faces)):
-            _triangle(flat[faces[f, 0]], flat[faces[f, 1]], flat[faces[f, 2]], scale, nearness[c], area[c])
+            i, j, k = np.uint64(faces[f, 0]), np.uint64(faces[f, 1]), np.uint64(faces[f, 2])  # nothing to wrap around
+            left = max(0, math.ceil(min(flat[i, 0], flat[j, 0], flat[k, 0]) - 0.5))
+            right = min(side - 1, math.floor(max(flat[i, 0], flat[j, 0], flat[k, 0]) - 0.5))
+            top = max(0, math.ceil(min(flat[i, 1], flat[j, 1], flat[k, 1]) - 0.5))
+            bottom = min(side - 1, math.floor(max(flat[i, 1], flat[j, 1], flat[k, 1]) - 0.5))
+            if left <= right and top <= bottom:
+                box = left, right, top, bottom
+                _triangle(flat[i], flat[j], flat[k], scale, box, nearness[c], area[c])
 
 
 @njit(nogil=True, cache=True)
-def _triangle(a: Any, b: Any, c: Any, scale: float, nearness: Any, area: Any) -> None:
-    side = len(nearness)
-    bx, by, cx, cy = b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]
+def _triangle(a: Any, b: Any, c: Any, scale: float, box: tuple[int, int, int, int], nearness: Any, area: Any) -> None:
+    left, right, top, bottom = box
+    bx, by, bz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+    cx, cy, cz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
     double = bx * cy - by * cx
     if abs(double) < 1e-12:
         return
-    left = max(0, math.ceil(min(a[0], b[0], c[0]) - 0.5))
-    right = min(side - 1, math.floor(max(a[0], b[0], c[0]) - 0.5))
-    top = max(0, math.ceil(min(a[1], b[1], c[1]) - 0.5))
-    bottom = min(side - 1, math.floor(max(a[1], b[1], c[1]) - 0.5))
-    if left > right or top > bottom:
-        return
-    bz, cz = (b[2] - a[2]) * scale, (c[2] - a[2]) * scale
-    nx, ny = by * cz - bz * cy, bz * cx - bx * cz
-    cosine = abs(double) / math.sqrt(nx * nx + ny * ny + double * double)
-    surface = 1.0 / (scale * scale * max(cosine, _STEEPEST))
+    surface = 0.0  # of a pixel, once one is seen
     step_b, step_c = cy / double, -by / double
-    step = step_b * (b[2] - a[2]) + step_c * (c[2] - a[2])
+    step = step_b * bz + step_c * cz
     for row in range(top, bottom + 1):
         px, py = left + 0.5 - a[0], row + 0.5 - a[1]
         weight_b, weight_c = (px * cy - py * cx) / double, (py * bx - px * by) / double
-        z = a[2] + weight_b * (b[2] - a[2]) + weight_c * (c[2] - a[2])
+        z = a[2] + weight_b * bz + weight_c * cz
+        entered = False
         for column in range(left, right + 1):
-            if weight_b >= 0.0 and weight_c >= 0.0 and weight_b + weight_c <= 1.0 and z > nearness[row, column]:
-                nearness[row, column] = z
-                area[row, column] = surface
+            if weight_b >= 0.0 and weight_c >= 0.0 and weight_b + weight_c <= 1.0:
+                entered = True
+                if z > nearness[row, column]:
+                    if surface == 0.0:
+                        nx, ny = (by * cz - bz * cy) * scale, (bz * cx - bx * cz) * scale
+                        cosine = abs(double) / math.sqrt(nx * nx + ny * ny + double * double)
+                        surface = 1.0 / (scale * scale * max(cosine, _STEEPEST))
+                    nearness[row, column] = z
+                    area[row, column] = surface
+            elif entered:
+                break
             weight_b += step_b
             weight_c += step_c
             z += step
