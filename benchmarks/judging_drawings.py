@@ -29,7 +29,7 @@ from shapewright.comparison.pictures import visual_information_fidelity
 from shapewright.demo import drawings
 from shapewright.judging.drawn_fidelity import DrawnFidelity
 from shapewright.parameters.kinds import Scalar
-from shapewright.references.readers.png import read_png
+from shapewright.references.readers.pictures import read_picture
 from shapewright.rendering.ink import png
 
 HERE = Path(__file__).resolve().parent
@@ -83,7 +83,7 @@ def drawn(reference: sw.Drawing, rng: np.random.Generator) -> Iterator[tuple[str
     area = reference.normalised().geometry
     for kind, sides in {"on its head": (1, -1), "wider": (1.25, 1), "taller": (1, 1.25)}.items():
         yield kind, sw.Drawing(affinity.scale(area, *sides))
-    yield "png", read_png(png(reference))[0]
+    yield "png", read_picture(png(reference))[0]
     fine = shapely.segmentize(area, 0.01)
     corners = np.unique(shapely.get_coordinates(fine), axis=0)
     shift = dict(zip(map(tuple, corners), rng.normal(0, 0.003, corners.shape), strict=True))

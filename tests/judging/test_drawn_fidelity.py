@@ -11,7 +11,7 @@ import shapewright as sw
 from shapewright.judging.drawn_fidelity import DrawnFidelity, Likeness
 from shapewright.modelling import solids
 from shapewright.modelling.drawing import box, circle
-from shapewright.references.readers.png import read_png
+from shapewright.references.readers.pictures import read_picture
 from shapewright.references.readers.svg import read_svg
 from shapewright.rendering.ink import png
 from shapewright.threads import in_threads
@@ -78,7 +78,7 @@ def test_flaws_of_real_drawings_do_not_count():
     speck = TABLE.geometry | area(circle(0.004)).buffer(0)
     for flawed in (noisy.buffer(0), doubled, crack, speck):
         assert value(sw.Drawing(flawed)) > REPLICATED
-    assert value(read_png(png(TABLE))[0]) > REPLICATED
+    assert value(read_picture(png(TABLE))[0]) > REPLICATED
 
 
 @pytest.mark.parametrize("path", ["M0 0H9V9H0ZM3 3H6V6H3Z", "M0 0H9V9H0ZM3 3V6H6V3Z"])

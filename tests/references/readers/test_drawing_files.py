@@ -5,9 +5,10 @@ import pytest
 import shapely
 from PIL import Image
 
+from benches import AREA as BENCH
+from benches import bench, overlap
 from shapewright.references import Collection
 from shapewright.references.errors import UnreadableError
-from shapewright.references.readers.png import read_png
 from shapewright.references.readers.svg import read_svg
 from shapewright.shapes import Drawing
 from shapewright.shapes.files import svg
@@ -17,83 +18,6 @@ def png(array, mode=None) -> bytes:
     buffer = io.BytesIO()
     Image.fromarray(np.asarray(array), mode).save(buffer, "PNG")
     return buffer.getvalue()
-
-
-def bench(side=64, white=255, black=0, dtype=np.uint8):
-    """A top of 48 x 6 pixels and two legs of 4 x 20."""
-    picture = np.full((side, side), white, dtype=dtype)
-    picture[20:26, 8:56] = black
-    picture[26:46, 10:14] = black
-    picture[26:46, 50:54] = black
-    return picture
-
-
-def overlap(one, other):
-    return one.intersection(other).area / one.union(other).area
-
-
-BENCH = shapely.union_all([shapely.box(8, -26, 56, -20), shapely.box(10, -46, 14, -20), shapely.box(50, -46, 54, -20)])
-
-
-def centred(geometry):
-    return shapely.affinity.translate(geometry, 0.5, -0.5)  # whole numbers are pixel centres
-
-
-class TestPng:
-    @pytest.mark.parametrize(
-        "data",
-        [
-            png(bench()),
-            png(bench(white=200, black=90)),
-            png(bench(white=65535, dtype=np.uint16)),
-            png(np.stack([bench()] * 3, axis=-1)),
-            png(np.stack([np.zeros((64, 64), np.uint8), 255 - bench()], axis=-1), "LA"),
-            png(bench() > 0),
-        ],
-        ids=["grey", "pale", "16 bits", "colour", "transparent", "1 bit"],
-    )
-    def test_the_dark_part_is_outlined_whatever_the_mode(self, data):
-        drawing, notes = read_png(data)
-        assert notes == () and overlap(centred(drawing.geometry), BENCH) > 0.995
-
-    def test_holes_islands_and_corners_that_touch(self):
-        picture = np.full((30, 30), 255, dtype=np.uint8)
-        picture[5:25, 5:25] = 0
-        picture[10:20, 10:20] = 255
-        picture[13:17, 13:17] = 0
-        picture[1:5, 1:5] = 0  # meets the frame at a corner
-        drawing, _ = read_png(png(picture))
-        assert drawing.geometry.is_valid
-        assert drawing.geometry.area == pytest.approx(400 - 100 + 16 + 16, abs=1.5)
-        assert len(shapely.get_parts(drawing.geometry)) == 3
-
-    def test_outlines_lie_between_grey_pixels(self):
-        y, x = np.mgrid[:64, :64]
-        disc = np.clip(np.hypot(x - 31.3, y - 30.8) - 20.0 + 0.5, 0, 1)
-        drawing, _ = read_png(png((disc * 255).astype(np.uint8)))
-        assert overlap(drawing.geometry, shapely.Point(31.3, -30.8).buffer(20.0, quad_segs=64)) > 0.985
-
-    def test_a_slanted_line_as_wide_as_a_pixel_stays_whole(self):
-        y, x = np.mgrid[:64, :64]
-        away = np.abs((x - 5) * np.sin(0.6) - (y - 5) * np.cos(0.6))
-        drawing, _ = read_png(png((np.clip(away, 0, 1) * 255).astype(np.uint8)))
-        assert len(shapely.get_parts(drawing.geometry)) == 1
-
-    def test_large_pictures_are_reduced(self):
-        drawing, _ = read_png(png(np.kron(bench(), np.ones((40, 40), dtype=np.uint8))))
-        assert np.ptp(drawing.bounds, axis=0).max() == pytest.approx(1024 * 48 / 64, abs=1)
-
-    def test_what_touches_the_rim_is_closed(self):
-        drawing, notes = read_png(png(np.zeros((4, 8), dtype=np.uint8)))
-        assert drawing.geometry.area == pytest.approx(32, abs=1) and notes == ()
-
-    def test_light_on_dark_gets_a_note(self):
-        _, notes = read_png(png(255 - bench()))
-        assert "invert" in notes[0]
-
-    def test_nothing_dark(self):
-        with pytest.raises(UnreadableError, match="nothing in the picture is dark"):
-            read_png(png(bench(black=230)))
 
 
 def document(content, attributes='viewBox="0 0 64 64" width="64" height="64"') -> bytes:

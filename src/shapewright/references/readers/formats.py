@@ -12,8 +12,9 @@ from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.gltf.scene import read_gltf
 from shapewright.references.readers.obj import read_obj
 from shapewright.references.readers.off import read_off
+from shapewright.references.readers.pictures import KINDS as PICTURES
+from shapewright.references.readers.pictures import read_picture
 from shapewright.references.readers.ply import read_ply
-from shapewright.references.readers.png import read_png
 from shapewright.references.readers.polygons import Polygons, check_indices, triangulate
 from shapewright.references.readers.stl import read_stl
 from shapewright.references.readers.svg import read_svg
@@ -29,7 +30,10 @@ _SCENES: dict[str, Callable[[Path, bytes], tuple[Floats, Ints, tuple[str, ...]]]
     ".glb": read_gltf,
     ".gltf": read_gltf,
 }
-_DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {".png": read_png, ".svg": read_svg}
+_DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {
+    ".svg": read_svg,
+    **dict.fromkeys(PICTURES, read_picture),
+}
 MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF")
 """Formats of meshes that are read, as people write them. The extension of a file is the name in small letters."""
 MESHES = tuple(f".{name.lower()}" for name in MESH_FORMATS)
