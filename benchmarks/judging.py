@@ -1,11 +1,13 @@
 """How often the judge says what a person or the known truth says; and what it learns that from.
 
     python benchmarks/judging.py [--count 16] [--seed 5] [--write] [--measures 4]
+    python benchmarks/judging.py --cost 60
 
 Pairs of known truth are made (benchmarks/known_pairs.py); pairs labelled by eye are read from ../shared/data/pairs and,
 where the references are at hand, made from benchmarks/eye_labels.csv. What is reported was learned without the family
 (known truth) or the kind (by eye) that it is measured on. --write learns from all of them and writes
-src/shapewright/judging/weights.json. --measures compares other measures, on so many shapes a procedure.
+src/shapewright/judging/weights.json. --measures compares other measures, on so many shapes a procedure. --cost says
+instead what a pair takes of CPU time, on so many pairs a kind.
 """
 
 from __future__ import annotations
@@ -13,8 +15,9 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import time
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,6 +33,7 @@ from shapewright.comparison import light_field, volumes
 from shapewright.comparison.gaps import Surface
 from shapewright.judging import opinion
 from shapewright.judging.differences import Differences, Look, compare
+from shapewright.judging.fidelity import Fidelity
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh
 
@@ -210,13 +214,45 @@ def measures(count: int, seed: int) -> None:
         print(f"{name}, the best cut in sample: {max(accuracy(values <= cut, said) for cut in cuts):.3f}")
 
 
+def cost(count: int, seed: int) -> None:
+    """The references are described before; a time is the least of five."""
+    kinds = defaultdict(list)
+    for kind, _, _, reference, replica in by_eye():
+        kinds[kind].append((reference, replica))
+    chair = sw.load_procedure(sorted(ROOT.glob("examples/categories/chair/v*.py"))[-1])
+    chairs = [chair(**parameters) for parameters in chair.space.sample(2 * count, seed)]
+    kinds["unlike chairs"] = list(zip(chairs[::2], chairs[1::2], strict=True))
+    print("milliseconds of CPU a pair: mean, 95 % within; alone, with regions")
+    for kind, found in kinds.items():
+        rows = []
+        for reference, replica in found[:: max(1, len(found) // count)]:
+            judge = Fidelity(reference)
+            rows.append([milliseconds(judge.value, replica), milliseconds(judge.evidence, replica)])
+        alone, whole = ((np.mean(column), np.quantile(column, 0.95)) for column in zip(*rows, strict=True))
+        print(f"{kind:14} {len(rows):4} pairs  {alone[0]:5.2f} {alone[1]:5.2f}  {whole[0]:5.2f} {whole[1]:5.2f}")
+
+
+def milliseconds(judge: Callable[[Mesh], object], replica: Mesh) -> float:
+    judge(replica)
+    least = np.inf
+    for _ in range(5):
+        started = time.thread_time()
+        judge(replica)
+        least = min(least, time.thread_time() - started)
+    return 1000.0 * least
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=16)
     parser.add_argument("--seed", type=int, default=5)
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--measures", type=int, default=0)
+    parser.add_argument("--cost", type=int, default=0)
     arguments = parser.parse_args()
+    if arguments.cost:
+        cost(arguments.cost, arguments.seed)
+        return
     everything = known(arguments.count, arguments.seed)
     truth = [row for row in everything if seen(row)]
     print(f"{len(everything)} pairs of known truth; {len(everything) - len(truth)} that differ cannot be seen")

@@ -22,7 +22,7 @@ class Fidelity:
         self._look = functools.cache(functools.partial(_look, reference))
 
     def value(self, replica: Shape | None) -> float:
-        """The fidelity alone, in half of the time; NaN where the two cannot be compared."""
+        """The fidelity alone, in two thirds of the time; NaN where the two cannot be compared."""
         ours, theirs = self._look(), _look(replica)
         return opinion(compare(ours, theirs)[0]) if ours and theirs else math.nan
 
