@@ -1,3 +1,5 @@
+import pytest
+
 from shapewright.progress import Progress, Stages
 
 
@@ -40,6 +42,24 @@ def test_a_stage_that_comes_again_adds_up_and_an_answer_is_never_held_back():
         "train", 1, 1, "predicted", {"a": {"height": 1.0}}, answer_kind="predicted"
     )
     assert stages.first_answer is not None and stages.first_answer >= 0.0
+
+
+def test_what_is_left_goes_by_the_shares_of_the_stages(monkeypatch):
+    told, clock = [], iter([1.0, 1.0, 1.0, 11.0, 11.0, 11.0, 11.0, 16.0])
+    monkeypatch.setattr("time.perf_counter", lambda: next(clock))
+    stages = Stages(told.append, {"causes": 0.5, "trials": 0.5})
+    stages.begin("causes", 1)
+    stages.begin("trials", 2)
+    stages.step(1, 2)
+    assert [event.left for event in told] == [None, 10.0, 10.0, pytest.approx(5.0)]
+
+
+def test_without_shares_nobody_knows_what_is_left():
+    told = []
+    stages = Stages(told.append)
+    stages.begin("causes", 2)
+    stages.step(2, 2)
+    assert told[-1].left is None
 
 
 def test_without_a_listener_seconds_are_kept():

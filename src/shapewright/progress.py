@@ -24,6 +24,7 @@ class Progress:
     answer: the parameters of every reference as far as they are known by now; None when there is nothing new.
     losses: of the epoch of training that ended: epoch, train, validation (None where nothing was held back).
     answer_kind: where ``answer`` comes from; None without one.
+    left: seconds that all stages together are likely to take still; None where nobody knows.
     """
 
     stage: str
@@ -33,6 +34,7 @@ class Progress:
     answer: Mapping[str, Parameters] | None = field(default=None, repr=False)
     losses: Mapping[str, float | None] | None = field(default=None, repr=False)
     answer_kind: AnswerKind | None = None
+    left: float | None = None
 
     def __str__(self) -> str:
         return f"{self.stage} {self.done}/{self.total}{' ' + self.remark if self.remark else ''}"
@@ -45,12 +47,16 @@ class Stages:
     """Reports the stages of one iteration to a listener, a few times a second at most, and keeps their seconds."""
 
     INTERVAL = 0.2
+    KNOWN = 0.05
+    """Share of the work from which on the time that is left can be told."""
 
-    def __init__(self, listener: Listener | None) -> None:
+    def __init__(self, listener: Listener | None, shares: Mapping[str, float] | None = None) -> None:
+        """shares: of each stage in the time of all, which add up to 1, for telling what is left."""
         self.seconds: dict[str, float] = {}
         self.first_answer: float | None = None
         self._created = time.perf_counter()
         self._listener = listener
+        self._shares = shares or {}
         self._stage = ""
         self._started = self._told = 0.0
         self._done = self._total = 0
@@ -65,7 +71,13 @@ class Stages:
         self._done, self._total = done, total
         if self._listener and (now - self._told >= self.INTERVAL or done >= total):
             self._told = now
-            self._listener(Progress(self._stage, done, total, remark, losses=losses))
+            self._listener(Progress(self._stage, done, total, remark, losses=losses, left=self._left(now)))
+
+    def _left(self, now: float) -> float | None:
+        """Seconds, as if the rest took as long for its share as what is done."""
+        past = sum(share for stage, share in self._shares.items() if stage in self.seconds and stage != self._stage)
+        past += self._shares.get(self._stage, 0.0) * min(self._done / max(self._total, 1), 1.0)
+        return (now - self._created) * max(1.0 - past, 0.0) / past if past >= self.KNOWN else None
 
     def answer(self, answer: Mapping[str, Parameters], kind: AnswerKind) -> None:
         """Report the parameters that are known so far; never held back."""

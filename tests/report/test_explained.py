@@ -10,7 +10,8 @@ from test_page import EVIL, picture, record, reference, saved, typical
 
 from shapewright.feedback.record import write
 from shapewright.report import write_report
-from shapewright.report.explained import outlines, read_explanation
+from shapewright.report.explained import outlines, quiet, read_explanation
+from shapewright.runs.difference import changed as difference_of
 from shapewright.runs.folder import RunError
 
 BOX = {"centre": [0, 0, 0], "size": [0.2, 0.2, 0.2], "axes": np.eye(3).tolist(), "share": 0.2, "distance": 0.1}
@@ -117,3 +118,33 @@ def test_outlines_lie_where_the_thumbnail_shows_the_place():
     moved = np.array([[float(x), float(y)] for x, y in re.findall(r"(-?[\d.]+) (-?[\d.]+)", theirs)])
     assert moved[:, 1].mean() < 45.0  # up in the replica's own frame, and half as large
     assert np.ptp(moved[:, 0]) == pytest.approx(np.ptp(places[:, 0]) / 2, rel=0.1)
+
+
+def test_a_suggestion_is_a_coloured_difference(run):
+    source = "\n".join(f"line {i} & <b>" for i in range(20))
+    changed = source.replace("line 2 ", "first ").replace("line 15", "other")
+    suggestion = told()["suggestions"][0] | {"diff": [vars(line) for line in difference_of(source, changed)]}
+    write(run, told(suggestions=[suggestion]))
+    text = page(run)
+    assert '<tr class="removed"><td class="n">16</td><td class="n"></td>' in text and '<tr class="added">' in text
+    assert "other &amp; &lt;b&gt;" in text and text.count('<tr class="same">') == 11
+    assert text.count('<tr class="gap">') == 1
+    assert "<span>replica now</span><span>replica then</span>" in text
+
+
+def test_where_nothing_is_suggested_it_says_what_was_tried_and_what_that_took(run):
+    tried = {"title": "a shelf <i>", "kind": "new part", "nearer": 3, "best": 1.21, "seconds": 2.5}
+    write(run, told(suggestions=[], tried=[tried], seconds={"hypotheses": 4.0, "trials": 8.0}))
+    text = page(run)
+    assert "Nothing is suggested" in text and "took 12.0 s" in text
+    assert "<td>a shelf &lt;i&gt;</td><td>new part</td><td>3</td><td>1.21</td><td>2.5 s</td>" in text
+    write(run, told(suggestions=[], tried=[tried | {"best": None}], seconds={}))
+    assert "<td>3</td><td>–</td>" in page(run)
+
+
+def test_what_still_differs_in_good_replicas_is_told_quietly():
+    cause = {"text": "another form of body"}
+    one = {"causes": [cause], "remark": {"text": "narrower at the top"}}
+    assert quiet(one, "different") is None and quiet(None, "replicated") is None
+    assert quiet(one, "close") == "another form of body" and quiet(one, "replicated") == "narrower at the top"
+    assert quiet({"causes": []}, "replicated") is None

@@ -86,7 +86,9 @@ def progress_bars() -> Iterator[Listener]:
         def listen(event: Event) -> None:
             if event.stage not in tasks:
                 tasks[event.stage] = bars.add_task(_DOING.get(event.stage, event.stage), total=event.total, remark="")
-            bars.update(tasks[event.stage], completed=event.done, total=event.total, remark=escape(event.remark))
+            left = "" if event.left is None else f"about {event.left:.0f} s left in all"
+            remark = escape(event.remark or left)
+            bars.update(tasks[event.stage], completed=event.done, total=event.total, remark=remark)
 
         yield listen
 

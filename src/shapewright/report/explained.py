@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from shapewright.judging.verdict import Grade
 from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.runs.folder import EXPLANATION, read_json
 from shapewright.shapes import Floats
@@ -26,10 +27,32 @@ def read_explanation(folder: Path) -> dict[str, Any] | None:
     if not path.is_file():
         return None
     record = read_json(path)
+    seconds = record.get("seconds", {})
+    record["sought"] = sum(seconds.get(stage, 0.0) for stage in ("hypotheses", "trials"))
+    record.setdefault("tried", [])
     for suggestion in record["suggestions"]:
+        suggestion["diff"] = followed(suggestion.get("diff", []))
         picture = folder / suggestion["picture"] if suggestion.get("picture") else None
         suggestion["picture"] = embedded(picture.read_bytes()) if picture and picture.is_file() else None
     return record
+
+
+def followed(lines: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """The lines of a difference, each with whether nothing is left out before it."""
+    told, before, after = [], 0, 0
+    for line in lines:
+        follows = line["before"] == before + 1 if line["before"] else line["after"] == after + 1
+        told.append({**line, "follows": follows})
+        before, after = line["before"] or before, line["after"] or after
+    return told
+
+
+def quiet(told: Mapping[str, Any] | None, grade: Grade) -> str | None:
+    """What still differs in a replica that is good enough, or close."""
+    if told is None or grade == "different":
+        return None
+    found = told.get("remark") if grade == "replicated" else next(iter(told["causes"]), None)
+    return str(found["text"]) if found else None
 
 
 def embedded(picture: bytes) -> str:

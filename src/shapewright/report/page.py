@@ -15,7 +15,7 @@ from PIL import Image
 
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import Measures
-from shapewright.report.explained import boxes, embedded, outlines, read_explanation, told_cause
+from shapewright.report.explained import boxes, embedded, outlines, quiet, read_explanation, told_cause
 from shapewright.report.scale import GRADES, Scale
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import read_record
@@ -131,6 +131,7 @@ def _pair(
             for kind in ("missing", "surplus")
         ],
         "causes": [told_cause(cause) for cause in causes],
+        "quiet": quiet(told, grade),
         "outlines": regions if grade != "replicated" else ([], []),
         "colour": scale.colour(reference),
         "tint": scale.tint(reference),
@@ -162,7 +163,8 @@ def _shown(parameter: dict[str, Any], reference: dict[str, Any]) -> list[Any] | 
 
 def _details(pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """What the page's script shows of each pair when it is opened."""
-    kept = ("name", "causes", "colour", "tint", "title", "regions", "error", "path", "link", "triangles", "values")
+    facts = ("name", "causes", "quiet", "title", "regions", "error", "path", "triangles", "values")
+    kept = (*facts, "colour", "tint", "link")
     return [
         {key: pair[key] for key in kept}
         | {"value": _number(pair["value"])}

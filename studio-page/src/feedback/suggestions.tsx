@@ -6,6 +6,7 @@ import { go, inspect } from "../state/route";
 import { procedure, tiles } from "../state/studio";
 import { Button } from "../ui/controls";
 import { plural } from "../ui/numbers";
+import { Lines } from "../ui/lines";
 import { Picture } from "../ui/picture";
 import type { Suggestion } from "../wire/messages";
 import { requests } from "../wire/requests";
@@ -13,7 +14,7 @@ import { requests } from "../wire/requests";
 const SHOWN = 6;
 
 export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; index: number }) {
-  const { kind, title, text, snippet, picture, references, gain } = suggestion;
+  const { kind, title, text, snippet, picture, references, gain, diff } = suggestion;
   const toCopy = async () => {
     try {
       const { path } = await requests.applyToCopy(index);
@@ -36,22 +37,41 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
   };
   return (
     <article class="card suggestion">
-      {picture && <img src={picture} alt="" loading="lazy" />}
+      <header>
+        <span class="badge cause">{kind.replaceAll("_", " ")}</span>
+        <h3>{title}</h3>
+        {gain !== null && gain !== undefined && (
+          <span class="gain" title="Further references that become replicated, as tried">
+            +{gain}
+          </span>
+        )}
+      </header>
+      <p>{text}</p>
+      {picture && (
+        <figure>
+          <figcaption class="soft">
+            <span>reference</span>
+            <span>replica now</span>
+            <span>replica then</span>
+          </figcaption>
+          <img
+            src={picture}
+            alt="References with what the replica lacks in orange, the replicas now and then"
+            loading="lazy"
+          />
+        </figure>
+      )}
       <div class="content">
-        <header>
-          <span class="badge cause">{kind.replaceAll("_", " ")}</span>
-          <h3>{title}</h3>
-          {gain !== null && gain !== undefined && (
-            <span class="gain" title="Further references that become replicated, as tried">
-              +{gain}
-            </span>
-          )}
-        </header>
-        <p>{text}</p>
-        {snippet && (
-          <pre>
-            <code>{snippet}</code>
-          </pre>
+        {diff?.length ? (
+          <div class="changes" tabIndex={0} role="region" aria-label="What it changes">
+            <Lines lines={diff} />
+          </div>
+        ) : (
+          snippet && (
+            <pre>
+              <code>{snippet}</code>
+            </pre>
+          )
         )}
         {references.length > 0 && (
           <div class="for">

@@ -5,12 +5,13 @@ import { cancel, explain } from "../state/actions";
 import { complain } from "../state/notices";
 import { collection, explained, jobs } from "../state/studio";
 import { Button } from "../ui/controls";
-import { percent } from "../ui/numbers";
+import { duration, percent } from "../ui/numbers";
 import type { Explanation } from "../wire/messages";
 import { requests } from "../wire/requests";
 import { Causes } from "./causes";
 import { Marks } from "./marks";
 import { SuggestionCard } from "./suggestions";
+import { TriedChanges, spent } from "./tried";
 
 export function FeedbackView() {
   const explanation = useSignal<Explanation | null>(null);
@@ -40,12 +41,17 @@ export function FeedbackView() {
                 </h2>
                 <Explain again />
               </header>
-              {found.suggestions.length === 0 && <p class="soft">No change was found that would help.</p>}
+              {found.suggestions.length === 0 && (
+                <p class="soft">
+                  Nothing is suggested: no change that was tried makes a reference replicated.{spent(found)}
+                </p>
+              )}
               <div class="cards">
                 {found.suggestions.map((suggestion, i) => (
                   <SuggestionCard key={i} suggestion={suggestion} index={i} />
                 ))}
               </div>
+              <TriedChanges explanation={found} />
             </section>
             <Causes explanation={found} />
           </>
@@ -76,6 +82,7 @@ function Explain({ again = false }: { again?: boolean }) {
       <div class="row">
         <span class="soft">
           {stage?.name ?? "starting"} {stage && stage.total > 1 ? percent(stage.done / stage.total) : "…"}
+          {job.left !== null && ` about ${duration(Math.ceil(job.left))} left`}
         </span>
         <Button disabled={job.state === "cancelling"} onClick={() => cancel("explain")}>
           Cancel

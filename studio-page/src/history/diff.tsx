@@ -1,7 +1,8 @@
-/** What was written between two iterations; long stretches that stayed are folded. */
+/** What was written between two iterations; long stretches that stayed are left out. */
 
 import { useSignal } from "@preact/signals";
 import { Button } from "../ui/controls";
+import { Lines } from "../ui/lines";
 import type { DiffLine } from "../wire/messages";
 
 const CONTEXT = 3;
@@ -21,39 +22,17 @@ export function Diff({ lines }: { lines: DiffLine[] }) {
           {whole.value ? "Only what changed" : "Whole file"}
         </Button>
       </header>
-      <table>
-        <tbody>
-          {(whole.value ? lines : near(lines)).map((line, i) =>
-            line === null ? (
-              <tr key={i} class="gap">
-                <td colSpan={4}>⋯</td>
-              </tr>
-            ) : (
-              <tr key={i} class={line.kind}>
-                <td class="n">{line.before}</td>
-                <td class="n">{line.after}</td>
-                <td class="sign">{{ same: "", added: "+", removed: "−" }[line.kind]}</td>
-                <td class="text">{line.text}</td>
-              </tr>
-            ),
-          )}
-        </tbody>
-      </table>
+      <Lines lines={whole.value ? lines : near(lines)} />
     </section>
   );
 }
 
-/** Changed lines and those around them; null where lines are left out. */
-function near(lines: DiffLine[]): (DiffLine | null)[] {
+/** Changed lines and those around them. */
+function near(lines: DiffLine[]): DiffLine[] {
   const kept = new Set(
     lines.flatMap(({ kind }, i) =>
       kind === "same" ? [] : Array.from({ length: 2 * CONTEXT + 1 }, (_, k) => i - CONTEXT + k),
     ),
   );
-  const shown: (DiffLine | null)[] = [];
-  lines.forEach((line, i) => {
-    if (kept.has(i)) shown.push(line);
-    else if (shown.at(-1) !== null) shown.push(null);
-  });
-  return shown;
+  return lines.filter((_, i) => kept.has(i));
 }

@@ -28,7 +28,8 @@ const WHOSE = { unexplained: "missing", surplus: "too much" } as const;
 export function Causes() {
   const explanation = reference.value?.explanation;
   if (!explanation || (!explanation.causes.length && !explanation.regions.length)) return null;
-  const { causes, regions } = explanation;
+  const { causes, regions, remark } = explanation;
+  const quiet = reference.value?.grade !== "different";
   return (
     <section class="causes">
       <header>
@@ -43,10 +44,11 @@ export function Causes() {
         )}
       </header>
       {causes.map(({ kind, text }, i) => (
-        <p key={i}>
-          <span class="badge cause">{kind.replaceAll("_", " ")}</span> {text}
+        <p key={i} class={quiet ? "soft" : ""}>
+          <span class={quiet ? "soft" : "badge cause"}>{quiet && i === 0 ? "still differs:" : kind}</span> {text}
         </p>
       ))}
+      {remark && <p class="soft">still differs: {remark.text}</p>}
       <ul>
         {regions.map((region, i) => (
           <li key={i} onPointerEnter={() => (pointed.value = region)} onPointerLeave={() => (pointed.value = null)}>

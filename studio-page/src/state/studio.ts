@@ -27,6 +27,7 @@ const idle = (kind: JobKind): Job => ({
   curve: [],
   answer: null,
   seconds: 0,
+  left: null,
   problem: null,
   result: null,
 });

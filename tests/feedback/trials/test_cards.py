@@ -17,6 +17,8 @@ def test_a_card_marks_what_is_missing_on_the_reference_alone():
     assert picture.shape == (240, 360, 3)
     coloured = np.ptp(picture.astype(int), axis=2) > 20
     assert coloured[60:120, :120].mean() > 0.1 and not coloured[:50, :120].any() and not coloured[:, 120:].any()
+    shown = (picture[:120, :120] < 255).any(axis=2)
+    assert shown.any(axis=1).mean() > 0.85 or shown.any(axis=0).mean() > 0.85  # as large as its cell
     assert (picture[:120] == picture[120:]).all()
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from shapewright.rendering.cameras import THUMBNAIL
@@ -14,11 +16,15 @@ from shapewright.rendering.raster import view
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.shapes import Floats, Mesh
 
-SIZE = 200
+Picture: TypeAlias = NDArray[np.uint8]
+"""RGB on white, (rows, columns, 3)."""
+SIZE = 300
 """Pixels of each picture's sides."""
+_LARGER = 2  # times that, pictures are drawn before they are cut to what they show
+_MARGIN = 0.04  # around that, of its own side
 _MARK, _STRENGTH = np.array([235, 110, 30]), 0.55  # colour of what is marked, and its share of the pixel's
 _BEHIND = 0.03  # how far behind what a view shows a point may lie
-_DOT = 2  # pixels around a point that are marked
+_DOT = 3  # pixels around a point that are marked
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,15 +38,35 @@ class Example:
 
 
 def card(examples: Sequence[Example], size: int = SIZE) -> bytes:
-    """PNG: a row for each example with the marked reference, the replica before and the one after."""
+    """PNG: a row for each example with the marked reference, the replica before and the one after.
+
+    The three of a row are as large as their cells allow, at one scale.
+    """
     meshes = [[(row.reference, row.marked), (row.before, None), (row.after, None)] for row in examples]
-    rows = [np.concatenate([_picture(*shown, size) for shown in row], axis=1) for row in meshes]
+    rows = [_cut([_picture(*shown, _LARGER * size) for shown in row], size) for row in meshes]
     buffer = io.BytesIO()
     Image.fromarray(np.concatenate(rows)).save(buffer, "PNG", optimize=True)
     return buffer.getvalue()
 
 
-def _picture(mesh: Mesh, marked: Floats | None, size: int) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
+def _cut(pictures: Sequence[Picture], size: int) -> Picture:
+    """One row of pictures, (size, n * size, 3), of the square around all that they show."""
+    shown = np.any([(picture < 255).any(axis=2) for picture in pictures], axis=0)
+    rows, columns = np.flatnonzero(shown.any(axis=1)), np.flatnonzero(shown.any(axis=0))
+    if not len(rows):
+        rows = columns = np.arange(len(shown))
+    half = (0.5 + _MARGIN) * max(float(np.ptp(rows)), float(np.ptp(columns)), 1.0)
+    middle = (columns[0] + columns[-1]) / 2.0, (rows[0] + rows[-1]) / 2.0
+    left, top = (-round(place - half) for place in middle)
+    cells = []
+    for picture in pictures:
+        cell = Image.new("RGB", (round(2 * half),) * 2, "white")
+        cell.paste(Image.fromarray(picture), (left, top))
+        cells.append(np.asarray(cell.resize((size, size), Image.Resampling.LANCZOS)))
+    return np.concatenate(cells, axis=1)
+
+
+def _picture(mesh: Mesh, marked: Floats | None, size: int) -> Picture:
     """RGB on white, (size, size, 3)."""
     grey, alpha = np.moveaxis(np.array(Image.open(io.BytesIO(thumbnail(mesh, size))), dtype=np.float64), -1, 0)
     light = grey * alpha / 255.0 + 255.0 - alpha

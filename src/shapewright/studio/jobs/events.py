@@ -34,6 +34,7 @@ class Advanced(Event, frozen=True):
     total: int
     remark: str = ""
     losses: Epoch | None = None  # of an epoch that ended
+    left: float | None = None  # seconds that the job is likely to take still
 
 
 class Guessed(Event, frozen=True):

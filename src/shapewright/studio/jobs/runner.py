@@ -111,6 +111,7 @@ class Runner:
         stage = self._job.stages[-1]
         stage.done, stage.total, stage.remark = event.done, event.total, event.remark
         stage.seconds = round(now - self._stage_started, 2)
+        self._job.left = event.left
         if event.losses:
             self._job.curve.append(event.losses)
 

@@ -66,6 +66,7 @@ class ReferenceExplanation(TypedDict):
     """Why one reference is not replicated; explanations of earlier versions have no placement."""
 
     causes: list[Cause]
+    remark: NotRequired[Cause | None]  # what still differs in a replica that is good enough
     regions: list[Region]
     placement: NotRequired[Placement]
 
@@ -77,6 +78,15 @@ class SharedCause(TypedDict):
     text: str
     references: list[Slug]
     representative: NotRequired[Slug | None]
+
+
+class ChangedLine(TypedDict):
+    """A line of a procedure and its changed version."""
+
+    kind: Literal["same", "added", "removed"]
+    before: int | None  # its number in the older one, from 1
+    after: int | None  # its number in the newer one
+    text: str
 
 
 class Suggestion(TypedDict):
@@ -91,6 +101,17 @@ class Suggestion(TypedDict):
     references: list[Slug]  # those that it would help
     gain: float | None
     tried: Any
+    diff: NotRequired[list[ChangedLine]]  # lines that it changes, and those around them
+
+
+class Tried(TypedDict):
+    """A change of the procedure that was tried, whether or not it is suggested."""
+
+    title: str
+    kind: str
+    nearer: int  # misfits that it brought nearer
+    best: float | None  # of these, how far the nearest is apart then: at most 1 is replicated
+    seconds: float
 
 
 class Explanation(TypedDict):
@@ -99,6 +120,8 @@ class Explanation(TypedDict):
     references: dict[Slug, ReferenceExplanation]
     summary: list[SharedCause]
     suggestions: list[Suggestion]
+    tried: NotRequired[list[Tried]]
+    seconds: NotRequired[dict[str, float]]  # by stage
 
 
 class Reference(Judged, frozen=True, kw_only=True):

@@ -55,6 +55,7 @@ class Job(Struct, kw_only=True):
     curve: list[Epoch] = []  # of a fit
     answer: Answer | None = None  # of a fit: the newest early answer
     seconds: float = 0.0
+    left: float | None = None  # seconds that it is likely to take still; null where nobody knows
     problem: Problem | None = None
     result: JobResult | None = None
 

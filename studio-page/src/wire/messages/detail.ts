@@ -55,6 +55,8 @@ export interface Cause {
 /** Why one reference is not replicated; explanations of earlier versions have no placement. */
 export interface ReferenceExplanation {
   causes: Cause[];
+  /** what still differs in a replica that is good enough. */
+  remark?: Cause | null;
   regions: Region[];
   placement?: Placement;
 }
@@ -65,6 +67,16 @@ export interface SharedCause {
   text: string;
   references: Slug[];
   representative?: Slug | null;
+}
+
+/** A line of a procedure and its changed version. */
+export interface ChangedLine {
+  kind: "same" | "added" | "removed";
+  /** its number in the older one, from 1. */
+  before: number | null;
+  /** its number in the newer one. */
+  after: number | null;
+  text: string;
 }
 
 /** A change of the procedure. */
@@ -80,6 +92,19 @@ export interface Suggestion {
   references: Slug[];
   gain: number | null;
   tried: unknown;
+  /** lines that it changes, and those around them. */
+  diff?: ChangedLine[];
+}
+
+/** A change of the procedure that was tried, whether or not it is suggested. */
+export interface Tried {
+  title: string;
+  kind: string;
+  /** misfits that it brought nearer. */
+  nearer: number;
+  /** of these, how far the nearest is apart then: at most 1 is replicated. */
+  best: number | null;
+  seconds: number;
 }
 
 /** The explanation of the run that is shown. */
@@ -87,6 +112,9 @@ export interface Explanation {
   references: Record<Slug, ReferenceExplanation>;
   summary: SharedCause[];
   suggestions: Suggestion[];
+  tried?: Tried[];
+  /** by stage. */
+  seconds?: Record<string, number>;
 }
 
 /** One reference in full. */

@@ -48,6 +48,8 @@ export interface Job {
   /** of a fit: the newest early answer. */
   answer: Answer | null;
   seconds: number;
+  /** seconds that it is likely to take still; null where nobody knows. */
+  left: number | null;
   problem: Problem | null;
   result: JobResult | null;
 }
