@@ -1,9 +1,9 @@
-"""Lamps, version 6: turned poles, a row of beads or a vase. The height is 1."""
+"""Lamps, version 6: arms of two bars with a joint, and heads that tilt. The height is 1."""
 
 from typing import Annotated, Literal
 
 from shapewright import Range, When, procedure
-from shapewright.modelling.solids import box, cone, cylinder, ellipse, sphere, spline, sweep, turned_leg
+from shapewright.modelling.solids import box, cone, cylinder, ellipse, sphere, spline, sweep
 
 THIN = 0.01  # the paper of a shade, and the bar that holds it
 
@@ -16,17 +16,6 @@ def has_tray(p):
     return p.tray and not bent(p)
 
 
-def turned_pole(width, length, form, beads):
-    """From the ground upwards: a bead is as wide as the pole, and half as wide where the next begins."""
-    if form == "straight":
-        return cylinder((width, length, width), at=(0, length / 2, 0)).label("pole")
-    if form == "vase":
-        return cone((width, length, width), at=(0, length / 2, 0), top=1, bottom=0.5).label("pole")
-    step = length / beads
-    profile = [point for i in range(beads) for point in ((0.5, i * step), (1, (i + 0.5) * step))]
-    return turned_leg((width, length, width), at=(0, length / 2, 0), profile=[*profile, (0.5, length)]).label("pole")
-
-
 def open_shade(width, height, top):
     """From y = 0 upwards."""
     paper = cone((width, height, width), at=(0, height / 2, 0), top=top)
@@ -35,13 +24,16 @@ def open_shade(width, height, top):
     return (paper - hollow | held).label("shade")
 
 
-def arm(pole, knee, knee_height, reach, head, head_height):
-    """From the ground over a knee to a head as far as ``reach`` in front. head: its width."""
+def arm(pole, knee, knee_height, reach, head, head_height, joint, tilt):
+    """From the ground over a knee to a head as far as ``reach`` in front. head: its width; tilt: to the back."""
     top = 1 - head_height / 2
-    curve = spline((0, 0, 0), (0, knee_height * top, knee * reach), (0, top, reach))
+    places = (0, 0, 0), (0, knee_height * top, knee * reach), (0, top, reach)
+    curve = places if joint else spline(*places)
     bowl = sphere((head, 2 * head_height, head), at=(0, 1 - head_height, reach))
     bowl -= box((head, head_height, head), at=(0, 1 - 1.5 * head_height, reach))
-    return sweep(ellipse(pole, pole, segments=8), curve).label("arm") | bowl.label("head")
+    return sweep(ellipse(pole, pole, segments=8), curve).label("arm") | bowl.rotate(
+        tilt, "x", about=(0, top, reach)
+    ).label("head")
 
 
 @procedure
@@ -57,18 +49,18 @@ def lamp(
     reach: Annotated[float, Range(0.2, 0.8, when=bent)] = 0.5,
     tray_width: Annotated[float, Range(0.15, 0.5, when=has_tray)] = 0.3,
     tray_height: Annotated[float, Range(0.2, 0.6, when=has_tray)] = 0.4,
-    beads: Annotated[int, Range(3, 8, when=lambda p: p.turned == "beads")] = 5,
+    tilt: Annotated[float, Range(-20, 70, when=bent)] = 0,
     square: bool = False,
+    joint: Annotated[bool, When(bent)] = False,
     tray: Annotated[bool, When(lambda p: not bent(p))] = False,
     stand: Literal["pole", "arm"] = "pole",
-    turned: Annotated[Literal["straight", "beads", "vase"], When(lambda p: not bent(p))] = "straight",
 ):
     plan = box if square else cylinder
     base = plan((foot, foot_height, foot), at=(0, foot_height / 2, 0)).label("foot")
     if stand == "arm":
-        return base | arm(pole, knee, knee_height, reach, shade, shade_height)
+        return base | arm(pole, knee, knee_height, reach, shade, shade_height, joint, tilt)
     length = 1 - shade_height / 2 + THIN  # up to the bar
-    stem = turned_pole(pole, length, turned, beads)
+    stem = cylinder((pole, length, pole), at=(0, length / 2, 0)).label("pole")
     if tray:
         stem |= box((tray_width, 0.02, tray_width), at=(0, tray_height * (1 - shade_height), 0)).label("tray")
     return base | stem | open_shade(shade, shade_height, shade_top).translate((0, 1 - shade_height, 0))

@@ -1,0 +1,70 @@
+"""Chairs, version 4: backs of rails or of slats between two posts. The height is 1."""
+
+from typing import Annotated, Literal
+
+from shapewright import Range, procedure
+from shapewright.modelling.solids import box
+
+
+def has_arms(p):
+    return p.arms != "none"
+
+
+def is_open(p):
+    return p.back != "panel"
+
+
+def back_of(form, width, height, thickness, post, count, gap):
+    """A back on y = 0, its middle at x = 0 and z = 0. gap: between its bars, a part of the distance between them."""
+    if form == "panel":
+        return box((width, height, thickness), at=(0, height / 2, 0))
+    frame = box((post, height, thickness), at=((width - post) / 2, height / 2, 0)).mirror("x", keep=True)
+    bar, inner = 0.7 * thickness, width - post
+    if form == "rails":
+        pitch = height / count
+        rail = box((inner, (1 - gap) * pitch, bar), at=(0, height - (1 - gap) * pitch / 2, 0))
+        return frame | rail.array(count, (0, -pitch, 0))
+    top = min(0.2 * height, 1.5 * post)
+    pitch = (width - 2 * post) / count
+    slat = box(((1 - gap) * pitch, height - top / 2, bar), at=((pitch - width) / 2 + post, (height - top / 2) / 2, 0))
+    return frame | slat.array(count, (pitch, 0, 0)) | box((inner, top, bar), at=(0, height - top / 2, 0))
+
+
+def arm_of(form, height, depth, thickness):
+    """One arm on y = 0, its middle at x = 0 and z = 0."""
+    panel = box((thickness, height, depth), at=(0, height / 2, 0))
+    bar = min(thickness, height / 2)
+    if form == "solid":
+        return panel
+    return panel - box((2 * thickness, height - bar, depth - 2 * thickness), at=(0, (height - bar) / 2, 0))
+
+
+@procedure
+def chair(
+    width: Annotated[float, Range(0.3, 1.1)] = 0.5,
+    depth: Annotated[float, Range(0.35, 1.1)] = 0.55,
+    seat_height: Annotated[float, Range(0.25, 0.8)] = 0.48,
+    seat_thickness: Annotated[float, Range(0.02, 0.22)] = 0.06,
+    back_thickness: Annotated[float, Range(0.02, 0.25)] = 0.05,
+    lean: Annotated[float, Range(0, 0.5)] = 0.1,  # of the back's height
+    curve: Annotated[float, Range(0, 80)] = 10,  # degrees between the ends of the back
+    arm_height: Annotated[float, Range(0.1, 0.4, when=has_arms)] = 0.2,  # above the seat
+    arm_thickness: Annotated[float, Range(0.03, 0.16, when=has_arms)] = 0.05,
+    leg: Annotated[float, Range(0.02, 0.14)] = 0.06,
+    bars: Annotated[int, Range(1, 6, when=is_open)] = 3,
+    gap: Annotated[float, Range(0.3, 0.8, when=is_open)] = 0.5,
+    back: Literal["panel", "rails", "slats"] = "panel",
+    arms: Literal["none", "bars", "solid"] = "none",
+):
+    below, high = seat_height - seat_thickness, 1 - seat_height
+    seat = box((width, seat_thickness, depth), at=(0, seat_height - seat_thickness / 2, 0)).label("seat")
+    behind = back_of(back, width, high, back_thickness, leg, bars, gap)
+    behind = behind.translate((0, seat_height, (back_thickness - depth) / 2))
+    behind = behind.bend(curve, "x", towards="z", fixed=0.5).path((0, 0, 0), (0, 0, -lean * high)).label("back")
+    corner = box((leg, below, leg), at=((width - leg) / 2, below / 2, (depth - leg) / 2)).label("legs")
+    whole = seat | behind | corner.mirror("x", keep=True).mirror("z", keep=True)
+    if arms == "none":
+        return whole
+    arm = arm_of(arms, arm_height, depth, arm_thickness)
+    arm = arm.translate(((width - arm_thickness) / 2, seat_height, 0)).label("arms")
+    return whole | arm.mirror("x", keep=True)
