@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from shapewright.references.readers.ply import read_ply
 from shapewright.references.readers.polygons import Polygons, check_indices, triangulate
 from shapewright.references.readers.stl import read_stl
 from shapewright.references.readers.svg import read_svg
+from shapewright.references.readers.threemf.build import read_3mf
 from shapewright.shapes import Drawing, Floats, Ints, Mesh, Shape
 
 _POLYGONS: dict[str, Callable[[bytes], Polygons]] = {
@@ -29,6 +29,7 @@ _POLYGONS: dict[str, Callable[[bytes], Polygons]] = {
 _SCENES: dict[str, Callable[[Path, bytes], tuple[Floats, Ints, tuple[str, ...]]]] = {
     ".glb": read_gltf,
     ".gltf": read_gltf,
+    ".3mf": read_3mf,
 }
 _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {
     ".svg": read_svg,
@@ -69,14 +70,10 @@ def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
         if kind in _POLYGONS:
             polygons = _POLYGONS[kind](data)
             vertices, faces, notes = polygons.vertices, triangulate(polygons), polygons.notes
-        elif kind in _SCENES:
-            vertices, faces, notes = _SCENES[kind](path, data)
         else:
-            vertices, faces, notes = *_read_scene(path, kind, data), ()
+            vertices, faces, notes = _SCENES[kind](path, data)
     except UnreadableError:
         raise
-    except FileNotFoundError as error:
-        raise UnreadableError(f"it needs {error.filename or error}, which is missing") from error
     except Exception as error:  # a broken file can make a parser fail in any way
         raise UnreadableError(f"broken: {type(error).__name__}: {error}") from error
     try:
@@ -113,25 +110,3 @@ def _seen(mesh: Mesh, size: float, start: int) -> bool:
     corners = mesh.vertices[mesh.faces[start : start + _AT_ONCE]] / size
     edges = np.diff(corners, axis=1)
     return bool(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).max() >= _LEAST_AREA)
-
-
-def _read_scene(path: Path, kind: str, data: bytes) -> tuple[Floats, Ints]:
-    """The triangles of every mesh in a scene, where the scene places them; (0, 3) faces where it has none."""
-    import trimesh
-
-    scene = trimesh.load_scene(
-        io.BytesIO(data),
-        file_type=kind[1:],
-        resolver=trimesh.resolvers.FilePathResolver(str(path)),
-        process=False,
-        skip_materials=True,
-    )
-    vertices, faces, start = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)], 0
-    for node in scene.graph.nodes_geometry:
-        matrix, name = scene.graph[node]
-        geometry = scene.geometry[name]
-        vertices.append(np.asarray(geometry.vertices, dtype=np.float64) @ matrix[:3, :3].T + matrix[:3, 3])
-        if isinstance(geometry, trimesh.Trimesh):
-            faces.append(np.asarray(geometry.faces, dtype=np.int64) + start)
-        start += len(geometry.vertices)
-    return np.concatenate(vertices), np.concatenate(faces)

@@ -1,0 +1,1 @@
+"""3MF packages: the triangles of what their build section lists, where it places them."""

@@ -1,0 +1,90 @@
+"""A 3MF file as a ZIP archive of parts, and which of them is the model."""
+
+from __future__ import annotations
+
+import io
+import posixpath
+import zipfile
+import zlib
+from dataclasses import dataclass
+from urllib.parse import unquote
+
+from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.text import plain
+from shapewright.references.readers.threemf.markup import outline
+
+_MODEL = "/3dmodel"
+"""How the types of the relationships to models end, in the format and in its draft."""
+_USUAL = "/3D/3dmodel.model"
+_RATIO, _SLACK = 200, 2**26
+"""A package may unpack to so many times its bytes, and as many bytes more. The text of models shrinks to a twentieth,
+that of the most regular ones to a hundredth; a bomb to a thousandth."""
+_LARGEST = 2**30
+"""Bytes of a part: ten million triangles."""
+
+
+@dataclass(frozen=True, eq=False)
+class Package:
+    """The parts of a package.
+
+    Attributes:
+        archive: the open archive.
+        entries: its entries by the names of the parts, which begin with a slash, in small letters.
+        root: the name of the part with the build section.
+        notes: what of the package was left out.
+    """
+
+    archive: zipfile.ZipFile
+    entries: dict[str, zipfile.ZipInfo]
+    root: str
+    notes: tuple[str, ...] = ()
+
+    def read(self, name: str) -> bytes:
+        """The bytes of a part; names may be in any case and percent-encoded. Raises UnreadableError without one."""
+        entry = self.entries.get(part_key(name)) or self.entries.get(part_key(unquote(name)))
+        if entry is None:
+            raise UnreadableError(f"it needs its part {name[:200]}, which is missing")
+        if entry.file_size > _LARGEST:
+            raise UnreadableError(f"its part {name[:200]} has {entry.file_size:,} bytes, more than are read")
+        try:
+            return self.archive.read(entry)
+        except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError, OSError) as error:
+            raise UnreadableError(f"broken: its part {name[:200]} cannot be unpacked ({error})") from error
+
+
+def unpack(data: bytes) -> Package:
+    """The package in a file's bytes. Raises UnreadableError for what is no 3MF, and for a ZIP bomb."""
+    try:
+        archive = zipfile.ZipFile(io.BytesIO(data))
+    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
+        raise UnreadableError(f"broken: no ZIP archive, or cut short ({error})") from error
+    entries = {part_key(entry.filename): entry for entry in archive.infolist()}
+    size = sum(entry.file_size for entry in archive.infolist())
+    if size > _RATIO * len(data) + _SLACK:
+        raise UnreadableError(f"a ZIP bomb: {len(data):,} bytes that unpack to {size:,}")
+    models = [name for name in entries if name.endswith(".model")]
+    package = Package(archive, entries, _USUAL)
+    targets = _targets(package.read("/_rels/.rels")) if "/_rels/.rels" in entries else []
+    root = next(iter([*targets, *(models if part_key(_USUAL) not in models else ())]), _USUAL)
+    if not targets and not models:
+        raise UnreadableError("a ZIP archive without a 3D model in it, so no 3MF")
+    more = len(set(map(part_key, targets))) - 1
+    notes = (f"{more} more models beside the first left out",) if more > 0 else ()
+    return Package(archive, entries, root, notes)
+
+
+def _targets(relations: bytes) -> list[str]:
+    """The parts that the package names as its models."""
+    found = [element.attributes for element in outline(plain(relations)) if element.name == "Relationship"]
+    return [
+        posixpath.join("/", relation["Target"])
+        for relation in found
+        if relation.get("Type", "").lower().endswith(_MODEL)
+        and relation.get("Target")
+        and relation.get("TargetMode", "").lower() != "external"
+    ]
+
+
+def part_key(name: str) -> str:
+    """The name of a part with a slash before it and in small letters, since names may be in either case."""
+    return posixpath.normpath("/" + name.replace("\\", "/").lstrip("/")).lower()
