@@ -30,6 +30,7 @@ class Document:
         root: the outermost element, an ``svg``.
         by_id: the first element of each id.
         styles: its ``style`` elements, in order.
+        count: of its elements.
         has_context: whether it speaks of ``context-fill`` or ``context-stroke``.
         notes: how often each thing that is not followed is in it, by name.
     """
@@ -37,6 +38,7 @@ class Document:
     root: Element
     by_id: Mapping[str, Element]
     styles: tuple[Element, ...]
+    count: int
     has_context: bool
     notes: Mapping[str, int]
 
@@ -68,7 +70,7 @@ def parse(data: bytes) -> Document:
     by_id.pop("", None)
     if re.search(rb"<\?xml-stylesheet\s", data[:4096]):
         notes["style sheet of another file"] += 1
-    return Document(root, by_id, tuple(styles), b"context-" in data, notes)
+    return Document(root, by_id, tuple(styles), sum(1 for _ in root.iter()), b"context-" in data, notes)
 
 
 def name(element: Element) -> str:

@@ -87,7 +87,7 @@ def path(element: Element, place: Place, notes: Counter[str]) -> Path | None:
 
 def filled(found: Path, place: Place, rule: str) -> Area | None:
     """The area inside a path, on the page; ``rule`` is the property that tells how."""
-    lines = [apply(place.matrix, line) for line, _ in found.polylines()]
+    lines = [apply(place.matrix, line) for line, _ in found.polylines]
     return layers.closed(lines, place.style.get(rule) == "evenodd")
 
 
@@ -112,7 +112,7 @@ def drawn(element: Element, found: Path, place: Place, notes: Counter[str]) -> A
         limit if limit >= 1.0 else 4.0,
         *_dashes(element, found, place, notes),
     )
-    lines = found.polylines()
+    lines = found.polylines
     if style.get("vector-effect") == "non-scaling-stroke":
         moved = [(apply(place.matrix, line), closed) for line, closed in lines]
         return layers.united(stroked(moved, stroke), matrix())

@@ -208,11 +208,13 @@ class Resources:
         style = self._cascade.style(owner, self._cascade.inherited(owner))
         inside = replace(place, style=style, shown=(*place.shown, pattern))
         tiles: list[Item] = []
-        for at in tiling.places:
-            shown = self._show(owner, replace(inside, matrix=at @ tiling.content))
+        if tiling.places:
+            first = tiling.places[0]
+            shown = self._show(owner, replace(inside, matrix=first @ tiling.content))
             if style.get("overflow") not in ("visible", "auto"):
-                shown = cut(shown, at, np.array([[0.0, 0.0], tiling.size]))
-            tiles += shown
+                shown = cut(shown, first, np.array([[0.0, 0.0], tiling.size]))
+            for at in tiling.places:
+                tiles += layers.shifted(shown, at[:2, 2] - first[:2, 2])
         return (Fill(area, None, outline), Layer(tuple(tiles), opacity, Layer((Fill(area, _BLACK),))))
 
     def _marker(self, value: str) -> Element | None:

@@ -51,8 +51,8 @@ _SILENT = {
 }
 _DEEPEST = 100
 """Elements inside one another; real files have some ten."""
-_MOST = 200_000
-"""Elements that are shown, each use of one counted: ten levels of ten uses would be 10^10."""
+_MOST = 20_000
+"""Elements that are shown by uses, beyond those of the file: ten levels of ten uses would be 10^10."""
 _FLATTEST = 1e-12
 """Of a matrix's determinant: what is flatter shows nothing."""
 Size = tuple[float | None, float | None]
@@ -70,7 +70,7 @@ class Scene:
         self.cascade = Cascade(document)
         self.notes: Counter[str] = self.cascade.notes + Counter(document.notes)
         self._resources = Resources(document, self.cascade, self.notes, self.children)
-        self._left = _MOST
+        self._left = _MOST + document.count
 
     def items(self, element: Element, place: Place, size: Size | None = None) -> tuple[Item, ...]:
         """What an element paints in a place; ``size`` is the width and height that a ``use`` gives it."""
@@ -79,7 +79,7 @@ class Scene:
             return ()
         self._left -= 1
         if self._left < 0:
-            raise UnreadableError(f"it shows more than {_MOST:,} elements, by uses of uses")
+            raise UnreadableError(f"it shows more than {_MOST:,} elements beyond its own, by uses of uses")
         here = replace(place, style=self.cascade.style(element, place.style), depth=place.depth + 1)
         opacity = fraction(here.style.get("opacity"))
         if here.style.get("display") == "none" or not _wanted(element):
@@ -88,7 +88,8 @@ class Scene:
             self.notes["element more than 100 deep"] += 1
             return ()
         here = replace(here, matrix=figures.moved(element, here, self.notes))
-        if not abs(np.linalg.det(here.matrix)) > _FLATTEST:
+        (a, c, _), (b, d, _), _ = here.matrix
+        if not abs(a * d - b * c) > _FLATTEST:
             return ()
         return self._composed(here, self._content(kind, element, here, size), opacity)
 

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,7 @@ _MOST = 32
 """Chords to a curve."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Path:
     """Parts of lines and cubic curves, K in all, in S parts.
 
@@ -47,18 +48,21 @@ class Path:
 
     def bounds(self) -> Floats:
         """(2, 2): the corners of a box around the path; control points of curves count where they lie outside."""
-        lines = [line for line, _ in self.polylines()]
+        lines = [line for line, _ in self.polylines]
         points = np.concatenate(lines) if lines else np.zeros((1, 2))
         return np.stack([points.min(axis=0), points.max(axis=0)])
 
     def length(self) -> float:
-        return sum(float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line, _ in self.polylines())
+        return sum(float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line, _ in self.polylines)
 
+    @cached_property
     def polylines(self) -> list[tuple[Floats, bool]]:
         """Each part as points (N, 2) and whether it is closed; a closed one ends where it begins."""
         if not len(self.cubics):
             return []
         points = self.cubics
+        if self.straight.all():
+            return [self._joined(i, points[:, 3], self.first) for i in range(len(self.closed))]
         bend = np.abs(np.diff(points, 2, axis=1)).max(axis=(1, 2))
         extent = max(float(np.ptp(points, axis=(0, 1)).max()), np.finfo(np.float64).tiny)
         # Wang's bound: a cubic departs from n chords by at most 3/4 of its second differences over n squared.
@@ -71,11 +75,12 @@ class Path:
         curve = s**3 * p[:, 0] + 3 * s * s * t * p[:, 1] + 3 * s * t * t * p[:, 2] + t**3 * p[:, 3]
         curve[ends - 1] = points[:, 3]
         starts = np.concatenate([[0], ends])[self.first]
-        return [
-            (np.concatenate([points[self.first[i], :1], curve[starts[i] : starts[i + 1]]]), bool(self.closed[i]))
-            for i in range(len(self.closed))
-            if self.first[i] < self.first[i + 1]
-        ]
+        return [self._joined(i, curve, starts) for i in range(len(self.closed))]
+
+    def _joined(self, part: int, ends: Floats, starts: NDArray[np.int64]) -> tuple[Floats, bool]:
+        """One part, of where it begins and the ends of its chords, and where those of each part begin."""
+        begin = self.cubics[self.first[part], :1]
+        return np.concatenate([begin, ends[starts[part] : starts[part + 1]]]), bool(self.closed[part])
 
 
 @dataclass
@@ -149,6 +154,8 @@ def parse(text: str) -> tuple[Path, bool]:
         for i, row in enumerate(rows):
             origin = pen.at if letter.islower() else (0.0, 0.0)
             step = "L" if kind == "M" and i else kind
+            if step == last == "Z":
+                continue
             control = _drawn(pen, step, row, origin, control if last in _KEEPS.get(step, "") else pen.at)
             last = step
         if not clean or not all(map(math.isfinite, pen.at)):
@@ -206,7 +213,7 @@ def _drawn(pen: Pen, kind: str, row: Sequence[float], origin: Point, control: Po
             return middle
         case "A":
             pen.arc((row[0], row[1]), row[2], row[3] == 1.0, row[4] == 1.0, (row[5] + dx, row[6] + dy))
-        case _ if not pen.fresh:
+        case _:
             pen.close()
     return pen.at
 

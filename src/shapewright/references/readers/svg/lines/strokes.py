@@ -24,7 +24,7 @@ _RUN = 32
 _MOST_DASHES = 20_000
 _DOT = 1e-5
 """Of half the width: a shorter dash is a dot."""
-_UNITED = 20_000
+_UNITED = 4000
 """Points of a stroke up to which its pieces are united."""
 
 

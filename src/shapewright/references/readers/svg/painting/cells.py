@@ -14,7 +14,7 @@ from shapewright.references.readers.svg.painting.layers import Area, Fill, Paint
 from shapewright.shapes import Floats
 
 _MOST_SEGMENTS = 150_000
-_MOST_CROSSINGS = 60_000
+_MOST_CROSSINGS = 30_000
 """A drawing of more lines or crossings is painted on a grid; up to here cells take a few seconds and 500 MB."""
 _ASKED = 400
 """Segments whose crossings are counted, to estimate those of all."""

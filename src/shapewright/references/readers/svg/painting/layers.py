@@ -129,6 +129,20 @@ def local_extent(items: Sequence[Item], frame: Floats) -> Floats | None:
     return np.stack([points.min(axis=0), points.max(axis=0)])
 
 
+def shifted(items: Sequence[Item], by: Floats) -> tuple[Item, ...]:
+    """Items, moved on the page by (2,)."""
+    result: list[Item] = []
+    for item in items:
+        if isinstance(item, Fill):
+            area = Area(tuple(ring + by for ring in item.area.rings), item.area.evenodd)
+            result.append(replace(item, area=area, paint=item.paint and item.paint.shifted(by)))
+            continue
+        clip = None if item.clip is None else Layer(shifted((item.clip,), by))
+        mask = item.mask and replace(item.mask, layer=Layer(shifted((item.mask.layer,), by)))
+        result.append(replace(item, items=shifted(item.items, by), clip=clip, mask=mask))
+    return tuple(result)
+
+
 def unseen(items: Sequence[Item]) -> tuple[Item, ...]:
     """The areas of items without their paints: they count in bounding boxes alone."""
     return tuple(replace(fill, paint=None) for fill in _painted(items))

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import shapely
 
-from shapewright.references.readers.svg.coordinates import apply, inverse
+from shapewright.references.readers.svg.coordinates import apply, inverse, matrix
 from shapewright.shapes import Floats
 
 LUMA = (0.299, 0.587, 0.114)
@@ -37,6 +37,10 @@ class Solid:
 
     def faded(self, opacity: float) -> Solid:
         return replace(self, alpha=self.alpha * opacity)
+
+    def shifted(self, by: Floats) -> Solid:
+        """The same paint on what is moved by (2,)."""
+        return self
 
     def at(self, points: Floats) -> tuple[Floats, Floats]:
         """(N, 3) colours and (N,) alphas at points of the page."""
@@ -67,6 +71,10 @@ class Gradient:
 
     def faded(self, opacity: float) -> Gradient:
         return replace(self, colours=self.colours * [1.0, 1.0, 1.0, opacity])
+
+    def shifted(self, by: Floats) -> Gradient:
+        """The same paint on what is moved by (2,)."""
+        return replace(self, matrix=self.matrix @ matrix(e=-by[0], f=-by[1]))
 
     def at(self, points: Floats) -> tuple[Floats, Floats]:
         """(N, 3) colours and (N,) alphas at points of the page."""
