@@ -1,4 +1,4 @@
-"""Lamps, version 5: a tray around the pole. The height is 1."""
+"""Lamps, version 5: floor lamps, with a tray around the pole and the shade in front of it. The height is 1."""
 
 from typing import Annotated, Literal
 
@@ -46,6 +46,7 @@ def lamp(
     reach: Annotated[float, Range(0.2, 0.8, when=bent)] = 0.5,
     tray_width: Annotated[float, Range(0.15, 0.5, when=has_tray)] = 0.3,
     tray_height: Annotated[float, Range(0.2, 0.6, when=has_tray)] = 0.4,
+    forward: Annotated[float, Range(0.05, 0.3, when=has_tray)] = 0.1,
     square: bool = False,
     tray: Annotated[bool, When(lambda p: not bent(p))] = False,
     stand: Literal["pole", "arm"] = "pole",
@@ -56,6 +57,8 @@ def lamp(
         return base | arm(pole, knee, knee_height, reach, shade, shade_height)
     length = 1 - shade_height / 2 + THIN  # up to the bar
     stem = cylinder((pole, length, pole), at=(0, length / 2, 0)).label("pole")
+    ahead = forward if tray else 0
     if tray:
+        stem |= box((pole, pole, forward), at=(0, length - pole / 2, forward / 2)).label("pole")
         stem |= box((tray_width, 0.02, tray_width), at=(0, tray_height * (1 - shade_height), 0)).label("tray")
-    return base | stem | open_shade(shade, shade_height, shade_top).translate((0, 1 - shade_height, 0))
+    return base | stem | open_shade(shade, shade_height, shade_top).translate((0, 1 - shade_height, ahead))

@@ -1,9 +1,9 @@
-"""Lamps, version 6: arms of two bars with a joint, and heads that tilt. The height is 1."""
+"""Lamps, version 6: arms of two bars with a joint, which hold a tilted head at its back. The height is 1."""
 
 from typing import Annotated, Literal
 
 from shapewright import Range, When, procedure
-from shapewright.modelling.solids import box, cone, cylinder, ellipse, sphere, spline, sweep
+from shapewright.modelling.solids import box, cone, cylinder, ellipse, sphere, spline, sweep, union
 
 THIN = 0.01  # the paper of a shade, and the bar that holds it
 
@@ -27,13 +27,13 @@ def open_shade(width, height, top):
 def arm(pole, knee, knee_height, reach, head, head_height, joint, tilt):
     """From the ground over a knee to a head as far as ``reach`` in front. head: its width; tilt: to the back."""
     top = 1 - head_height / 2
-    places = (0, 0, 0), (0, knee_height * top, knee * reach), (0, top, reach)
-    curve = places if joint else spline(*places)
+    start, middle, end = (0, 0, 0), (0, knee_height * top, knee * reach), (0, top, reach)
+    behind = 0, top, reach - 0.5 * head
+    bars = [(start, middle), (middle, behind), (behind, end)] if joint else [spline(start, middle, end)]
+    made = union(*(sweep(ellipse(pole, pole, segments=8), bar) for bar in bars)).label("arm")
     bowl = sphere((head, 2 * head_height, head), at=(0, 1 - head_height, reach))
     bowl -= box((head, head_height, head), at=(0, 1 - 1.5 * head_height, reach))
-    return sweep(ellipse(pole, pole, segments=8), curve).label("arm") | bowl.rotate(
-        tilt, "x", about=(0, top, reach)
-    ).label("head")
+    return made | bowl.rotate(tilt, "x", about=(0, top, reach)).label("head")
 
 
 @procedure
@@ -49,6 +49,7 @@ def lamp(
     reach: Annotated[float, Range(0.2, 0.8, when=bent)] = 0.5,
     tray_width: Annotated[float, Range(0.15, 0.5, when=has_tray)] = 0.3,
     tray_height: Annotated[float, Range(0.2, 0.6, when=has_tray)] = 0.4,
+    forward: Annotated[float, Range(0.05, 0.3, when=has_tray)] = 0.1,
     tilt: Annotated[float, Range(-20, 70, when=bent)] = 0,
     square: bool = False,
     joint: Annotated[bool, When(bent)] = False,
@@ -61,6 +62,8 @@ def lamp(
         return base | arm(pole, knee, knee_height, reach, shade, shade_height, joint, tilt)
     length = 1 - shade_height / 2 + THIN  # up to the bar
     stem = cylinder((pole, length, pole), at=(0, length / 2, 0)).label("pole")
+    ahead = forward if tray else 0
     if tray:
+        stem |= box((pole, pole, forward), at=(0, length - pole / 2, forward / 2)).label("pole")
         stem |= box((tray_width, 0.02, tray_width), at=(0, tray_height * (1 - shade_height), 0)).label("tray")
-    return base | stem | open_shade(shade, shade_height, shade_top).translate((0, 1 - shade_height, 0))
+    return base | stem | open_shade(shade, shade_height, shade_top).translate((0, 1 - shade_height, ahead))
