@@ -74,6 +74,8 @@ def suggested(hour: Hour, steps: int, settings: sw.Settings, out: Path | None) -
             explained = time.perf_counter() - fitted
             yield row(hour, f"{step}", iteration, fitted - began, f"{explained:.0f}" if step < steps else "", edit)
             if not made:
+                if step < steps:
+                    yield f"| {hour.kind}, {step + 1} | | | | | | nothing is suggested |"
                 break
             edit, path = made[0].title, Path(folder) / f"step{step + 1}.py"
             path.write_text(made[0].source, encoding="utf-8")
