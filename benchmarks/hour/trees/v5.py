@@ -26,9 +26,11 @@ def is_palm(p):
 
 
 def leaves_of(count, length, width, droop):
-    """Leaves that hang down by an angle, all round the y axis."""
-    leaf = box((length, 0.04, width), at=(length / 2, 0, 0)).taper(0.6, "x")
-    return leaf.bend(droop, "x", towards="-y").polar_array(count)
+    """Leaves that hang down by an angle, all round a hub; each is narrow there. width: of a leaf, of its length."""
+    hub = 0.3 * width * length / math.tan(math.pi / count) / 2  # where neighbours meet
+    leaf = box((length - 0.8 * hub, 0.04, width * length), at=((length + 0.8 * hub) / 2, 0, 0))
+    leaf = leaf.profile(0.3, 1.4, 0.5, axis="x").bend(droop, "x", towards="-y")
+    return leaf.polar_array(count) | sphere((2.4 * hub + 0.02, 0.1, 2.4 * hub + 0.02), segments=12)
 
 
 def cones(width, depth, height, tiers, top_tier, point):
@@ -62,7 +64,7 @@ def tree(
     smaller: Annotated[float, Range(0.4, 1.1, when=has_branches)] = 0.7,  # their size, of the large crown's
     turn: Annotated[float, Range(0, 360, when=has_branches)] = 0,  # of the first branch, from the right
     branches: Annotated[int, Range(0, 2, when=lambda p: p.crown == "round")] = 0,
-    leaf_width: Annotated[float, Range(0.05, 0.3, when=is_palm)] = 0.15,
+    leaf_width: Annotated[float, Range(0.15, 0.8, when=is_palm)] = 0.35,  # of its length
     droop: Annotated[float, Range(20, 120, when=is_palm)] = 60,
     leaf_count: Annotated[int, Range(4, 9, when=is_palm)] = 6,
     crown: Literal["round", "cones", "leaves"] = "round",
