@@ -294,6 +294,10 @@ class TestReasons:
     def test_triangles_that_cannot_be_seen_or_measured(self, tmp_path, vertices, why):
         assert why in reason(put(tmp_path, "a.obj", vertices + b"f 1 2 3\n"))
 
+    def test_a_small_shape_that_lies_far_away_is_fine(self, tmp_path):
+        far = b"v 1e300 0 0\nv 1e300 1e-10 0\nv 1e300 0 1e-10\n"
+        assert len(triangles(put(tmp_path, "a.obj", far + b"f 1 2 3\n"))) == 1
+
     def test_a_sheet_without_thickness_is_fine(self, tmp_path):
         assert len(triangles(put(tmp_path, "a.obj", SQUARE + b"f 1 2 3 4\nf 4 3 2 1\n"))) == 4
 

@@ -107,6 +107,5 @@ def sound(vertices: Floats, faces: Ints) -> tuple[Mesh, tuple[str, ...]]:
 
 def _seen(mesh: Mesh, size: float, start: int) -> bool:
     """Whether one of the triangles from ``start`` on has an area that shows, in a mesh of this size."""
-    corners = mesh.vertices[mesh.faces[start : start + _AT_ONCE]] / size
-    edges = np.diff(corners, axis=1)
+    edges = np.diff(mesh.vertices[mesh.faces[start : start + _AT_ONCE]], axis=1) / size
     return bool(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).max() >= _LEAST_AREA)

@@ -49,6 +49,18 @@ def plain(data: bytes) -> bytes:
         raise UnreadableError(f"broken: text in {encoding[:6].upper()} that cannot be decoded") from error
 
 
+def utf8(data: bytes) -> bytes:
+    """The text as UTF-8, without mark. Bytes that are no UTF-8 count as Latin-1, which older programs write in names."""
+    text = plain(data)
+    if text.isascii():
+        return text
+    try:
+        text.decode()
+    except UnicodeDecodeError:
+        return text.decode("latin-1").encode()
+    return text
+
+
 def lines(text: bytes) -> Iterator[bytes]:
     """The lines of a text, without their ends; no more than a part of them is held at once."""
     sign, start = b"\n" if b"\n" in text else b"\r", 0

@@ -35,6 +35,15 @@ def test_a_byte_order_mark_and_space_before_the_text_are_no_part_of_it(tmp_path,
     assert len(read(tmp_path / "a.gltf")[0].faces) == len(CUBE_FACES)
 
 
+@pytest.mark.parametrize("encoding", ["latin-1", "utf-8", "utf-16"])
+def test_names_in_another_encoding_do_not_lose_the_file(tmp_path, cube, encoding):
+    cube.document["nodes"][0]["name"] = "NAME"
+    (tmp_path / "st\xfchl.bin").write_bytes(cube.binary)
+    text = cube.text(uri="URI").decode().replace("NAME", "Stühlchen").replace("URI", "stühl.bin")
+    (tmp_path / "a.gltf").write_bytes(text.encode(encoding))
+    assert len(read(tmp_path / "a.gltf")[0].faces) == len(CUBE_FACES)
+
+
 def test_chunks_of_other_kinds_are_passed_over_and_null_bytes_may_pad_the_text():
     text = b'{"asset": {"version": "2.0"}}\0\0\0'
     chunks = b"".join(

@@ -31,7 +31,7 @@ def test_objects_items_and_the_unit():
     assert found.items[1].matrix.tolist() == [[1, 4, 7, 10], [2, 5, 8, 11], [3, 6, 9, 12], [0, 0, 0, 1]]
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "latin-1"])
 def test_every_encoding_that_xml_may_have(encoding):
     xml = model(object_(1, mesh(), 'name="Stühlchen"'), 'objectid="1"').replace("UTF-8", encoding[:6].upper())
     assert len(read_model(xml.encode(encoding)).objects[1].faces) == 12

@@ -6,13 +6,13 @@ import struct
 from dataclasses import dataclass
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.text import utf8
 
 MAGIC = b"glTF"
 _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<II")
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
 """Types of chunks (glTF 2.0, "Binary glTF Layout"). Chunks of other types have to be passed over."""
-_BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +34,7 @@ def unpack(data: bytes) -> Container:
     """The parts of a file, by what it begins with, not by its name. Raises UnreadableError where it is no glTF."""
     if data.startswith(MAGIC):
         return _unpack_binary(data)
-    text = data.removeprefix(_BYTE_ORDER_MARK).lstrip()
+    text = utf8(data).lstrip()
     if not text.startswith(b"{"):
         raise UnreadableError("broken: neither the JSON text of a glTF file nor a binary one (GLB)")
     return Container(text)
@@ -60,7 +60,7 @@ def _unpack_binary(data: bytes) -> Container:
         first = kind if first is None else first
     if first != _JSON:
         raise UnreadableError("broken: the GLB does not begin with its JSON")
-    text = bytes(chunks[_JSON]).removeprefix(_BYTE_ORDER_MARK).rstrip(b"\0 ")
+    text = utf8(bytes(chunks[_JSON])).rstrip(b"\0 ")
     rest = len(data) - length
     notes = (f"{rest} bytes behind the end of the GLB left out",) if data[length:].strip(b"\0 \r\n") else ()
     return Container(text, chunks.get(_BINARY), notes)

@@ -194,7 +194,7 @@ def _decoded(text: bytes, kind: type[_T]) -> _T:
     try:
         # Not strict, so that 3.0 counts as 3, as in JSON.
         return msgspec.json.decode(text, type=kind, strict=False)
-    except (msgspec.MsgspecError, RecursionError) as error:
+    except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError) as error:
         raise UnreadableError(f"broken: {error}") from error
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.polygons import check_indices
-from shapewright.references.readers.text import numbers, plain
+from shapewright.references.readers.text import numbers, utf8
 from shapewright.references.readers.threemf.markup import Element, outline
 from shapewright.references.readers.threemf.number_blocks import Cut, cut
 from shapewright.shapes import Floats, Ints
@@ -91,7 +91,7 @@ def read_model(data: bytes) -> Model:
     """
     if data.startswith(_ENCRYPTED):
         raise UnreadableError("it is encrypted (the secure content extension of 3MF); save it without")
-    parts = cut(plain(data))
+    parts = cut(utf8(data))
     elements = outline(parts.outline)
     root = elements[0]
     if root.name != "model" or root.space not in _CORES:

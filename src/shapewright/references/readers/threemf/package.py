@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from urllib.parse import unquote
 
 from shapewright.references.errors import UnreadableError
-from shapewright.references.readers.text import plain
+from shapewright.references.readers.text import utf8
 from shapewright.references.readers.threemf.markup import outline
 
 _MODEL = "/3dmodel"
@@ -48,7 +48,7 @@ class Package:
             raise UnreadableError(f"its part {name[:200]} has {entry.file_size:,} bytes, more than are read")
         try:
             return self.archive.read(entry)
-        except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError, OSError) as error:
+        except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError, OSError) as error:
             raise UnreadableError(f"broken: its part {name[:200]} cannot be unpacked ({error})") from error
 
 
@@ -75,7 +75,7 @@ def unpack(data: bytes) -> Package:
 
 def _targets(relations: bytes) -> list[str]:
     """The parts that the package names as its models."""
-    found = [element.attributes for element in outline(plain(relations)) if element.name == "Relationship"]
+    found = [element.attributes for element in outline(utf8(relations)) if element.name == "Relationship"]
     return [
         posixpath.join("/", relation["Target"])
         for relation in found
