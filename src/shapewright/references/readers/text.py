@@ -50,7 +50,7 @@ def plain(data: bytes) -> bytes:
 
 
 def utf8(data: bytes) -> bytes:
-    """The text as UTF-8, without mark. Bytes that are no UTF-8 count as Latin-1, which older programs write in names."""
+    """The text as UTF-8, without mark. Where it is none it counts as Latin-1, which older programs write in names."""
     text = plain(data)
     if text.isascii():
         return text

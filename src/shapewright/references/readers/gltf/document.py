@@ -27,8 +27,8 @@ _WITHOUT_EFFECT = {
     "AGI_articulations", "AGI_stk_metadata", "CESIUM_primitive_outline", "EXT_instance_features", "EXT_mesh_features",
     "EXT_mesh_manifold", "EXT_mesh_primitive_edge_visibility", "EXT_mesh_primitive_restart", "EXT_structural_metadata",
     "FB_geometry_metadata", "GODOT_single_root", "GRIFFEL_bim_data", "KHR_animation_pointer", "KHR_audio_emitter",
-    "KHR_interactivity", "KHR_node_hoverability", "KHR_node_selectability", "KHR_techniques_webgl", "KHR_xmp",
-    "KHR_xmp_json_ld", "VRM", "VRMC_vrm",
+    "KHR_interactivity", "KHR_node_hoverability", "KHR_node_selectability", "KHR_technique_webgl",
+    "KHR_techniques_webgl", "KHR_xmp", "KHR_xmp_json_ld", "VRM",
 }  # fmt: skip
 _FAMILIES_WITHOUT_EFFECT = (
     *("ADOBE_materials_", "EXT_lights_", "EXT_materials_", "EXT_texture_", "KHR_lights_", "KHR_materials_"),
