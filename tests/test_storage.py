@@ -1,10 +1,19 @@
 import os
 import time
+from pathlib import Path
 
 import pytest
 
 from broken_disk import full_after, hidden, killed, shown
-from shapewright.storage import cache_folder, file_names, remove_leftovers, whole_file, whole_folder, write_file
+from shapewright.storage import (
+    cache_folder,
+    file_names,
+    printable,
+    remove_leftovers,
+    whole_file,
+    whole_folder,
+    write_file,
+)
 
 OLD, NEW = b"old" * 100, b"new" * 100
 
@@ -124,3 +133,14 @@ def test_file_names_are_safe_and_all_different():
         "???": "reference",
         "x": "x",
     }
+
+
+def test_names_that_are_not_utf_8_are_printable_and_written():
+    odd = os.fsdecode("chairs/st\xfchl".encode("latin-1") + b"\x81.obj")
+    assert printable(odd) == printable(Path(odd)) == "chairs/st\xfchl\N{REPLACEMENT CHARACTER}.obj"
+    assert printable("st\xfchl") == "st\xfchl"
+
+
+def test_a_text_with_a_part_of_such_a_name_is_written_all_the_same(tmp_path):
+    write_file(tmp_path / "report.html", "st\udcfchl")
+    assert (tmp_path / "report.html").read_text() == "st?hl"

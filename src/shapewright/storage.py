@@ -42,10 +42,13 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 def write_file(path: Path, content: str | bytes) -> None:
-    """Write a file whole or not at all, text as UTF-8, and remove what killed writers of it left."""
+    """Write a file whole or not at all, text as UTF-8, and remove what killed writers of it left.
+
+    A part of a path that is not UTF-8 becomes a question mark.
+    """
     remove_leftovers(path.parent, path.name)
     with whole_file(path) as partial:
-        partial.write_bytes(content.encode() if isinstance(content, str) else content)
+        partial.write_bytes(content.encode(errors="replace") if isinstance(content, str) else content)
 
 
 @contextmanager
@@ -98,6 +101,16 @@ def file_names(names: tuple[str, ...]) -> dict[str, str]:
         slugs[name] = next(slug for slug in numbered if slug.lower() not in taken)
         taken.add(slugs[name].lower())
     return slugs
+
+
+def printable(path: str | Path) -> str:
+    """A path or a name as it can be shown and written: bytes that are no UTF-8 are read as Latin-1, as older systems
+    wrote them; where that gives no letter either, a sign stands in their place."""
+    return re.sub("[\udc80-\udcff]", lambda odd: _latin(ord(odd[0]) - 0xDC00), str(path))
+
+
+def _latin(byte: int) -> str:
+    return chr(byte) if byte >= 0xA0 else "\N{REPLACEMENT CHARACTER}"
 
 
 def cache_folder() -> Path | None:

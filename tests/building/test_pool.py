@@ -177,6 +177,14 @@ def test_a_script_needs_no_main_guard(tmp_path):
     assert "from the author" in run.stderr
 
 
+def test_files_of_the_author_with_names_of_python_modules_do_not_stop_a_worker(part, tmp_path, monkeypatch):
+    for name in ("random", "types", "string", "inspect", "json", "queue"):
+        (tmp_path / f"{name}.py").write_text("raise RuntimeError\n")
+    monkeypatch.chdir(tmp_path)
+    with Workers(part, 1) as crew:
+        assert len(crew.build(part.space.sample(3))) == 3
+
+
 def test_a_file_that_vanished_is_an_error_of_the_procedure(part):
     part.path.unlink()
     with pytest.raises(sw.ProcedureError, match="no such file"):

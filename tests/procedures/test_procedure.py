@@ -83,6 +83,17 @@ def test_other_signatures_without_a_space_are_refused():
         sw.procedure(lambda *x: TRIANGLE)
     with pytest.raises(sw.ProcedureError, match="has no annotation"):
         sw.procedure(lambda x: TRIANGLE)
+    with pytest.raises(sw.ProcedureError, match="'x' stands before a /"):
+        sw.procedure(lambda x, /: TRIANGLE)
+
+
+def test_parameters_may_be_called_as_the_methods_call_themselves():
+    @sw.procedure
+    def part(self: Annotated[float, Range(0, 1)] = 0.5, args: Annotated[float, Range(0, 1)] = 0.5, cls: bool = True):
+        return [[0, 0, 0], [1, 0, 0], [0, 1, self + args]], [[0, 1, 2]]
+
+    assert part(self=1.0, args=1.0, cls=False).vertices.max() == 2.0
+    assert part.random(seed=1) and part.space.canonical(part.space.defaults) == part.space.defaults
 
 
 HEAD = "from typing import Annotated\nfrom shapewright import Range, procedure\n"
@@ -110,6 +121,16 @@ def test_a_file_is_loaded_with_imports_of_its_own_folder(tmp_path):
     assert found[0].path == tmp_path / "one" / "model.py"
     assert "VALUE" in found[0].source
     assert found[0].digest == source_digest(found[0].path.read_text())
+
+
+def test_a_file_with_the_name_of_a_module_of_python_hides_nothing_and_is_named_where_it_is_meant(tmp_path):
+    for name in ("colorsys", "this"):
+        write(tmp_path, f"{name}.py", "raise RuntimeError\nVALUE = 1\n")
+    write(tmp_path, "helper.py", "VALUE = 2.0\n")
+    text = HEAD + "import colorsys\nfrom helper import VALUE\n" + BODY.format(name="part").replace("x]]", "VALUE]]")
+    assert sw.load_procedure(write(tmp_path, "model.py", text))().vertices.max() == 2.0
+    with pytest.raises(sw.ProcedureError, match=r"colorsys\.py has the name of one of Python's modules: rename it"):
+        sw.load_procedure(write(tmp_path, "other.py", "from colorsys import VALUE\n"))
 
 
 def test_the_digest_of_a_text_stays_the_same_in_every_version():

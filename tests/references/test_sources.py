@@ -32,13 +32,15 @@ def test_natural_order():
 
 
 class TestFolder:
-    def test_the_files_directly_in_it(self, tree):
+    def test_the_files_in_it_and_in_the_folders_below(self, tree):
         folder = tree("b10.obj", "b9.PLY", "b9.mtl", "wood.jpg", "notes", ".hidden.obj", "._b9.PLY", "below/c.obj")
-        assert names(folder) == names(str(folder)) == ["b9", "b10"]
+        assert names(folder) == names(str(folder)) == ["b9", "b10", "c"]
 
-    def test_the_folders_below_where_none_is_direct(self, tree):
+    def test_hidden_folders_and_those_of_runs_and_samples_are_passed_over(self, tree):
         folder = tree("x/b.stl", "x/y/a.off", "readme.txt", ".git/c.obj", "__MACOSX/x/b.stl")
+        tree("runs/001/iteration.json", "runs/001/replicas/b.glb", "out/samples.json", "out/a-0001.glb")
         assert names(folder) == ["a", "b"]
+        assert names(folder / "out") == ["a-0001"]
 
     def test_links_to_folders_are_followed_and_loops_end(self, tree, tmp_path):
         folder = tree("data/x/a.obj", "elsewhere/b.obj") / "data"
@@ -55,18 +57,48 @@ class TestFolder:
     def test_pictures_beside_meshes_are_textures(self, tree):
         assert names(tree("a.obj", "wood.png", "b.ply")) == ["a", "b"]
         assert names(tree("c/preview.png", "c/1/a.obj", "c/1/wood.png") / "c") == ["a"]
-        drawings = tree("d/1.png", "d/2.SVG", "d/more/3.png") / "d"
-        assert names(drawings) == ["1", "2"]
-        assert names(drawings / "**" / "*.png") == ["1", "3"]
+        drawings = tree("d/1.png", "d/2.SVG", "d/more/3.webp") / "d"
+        assert names(drawings) == ["1", "2", "3"]
+        assert names(drawings / "**" / "*.[pw]*") == ["1", "3"]
+
+    def test_drawings_below_a_folder_of_meshes_are_refused(self, tree):
+        found = find([tree("a.obj", "doc/plan.svg")])
+        assert [(one.name, bool(one.refusal)) for one in found] == [("a", False), ("plan", True)]
+        assert [one.refusal for one in find([tree("d/a.svg", "d/more/b.svg") / "d"])] == [None, None]
+
+    def test_every_file_of_shapes_that_is_not_read_has_its_refusal(self, tree):
+        folder = tree(
+            "a.obj", "b.fbx", "c.STEP", "sub/d.usdz", "e.obj.dvc", "wood.tga", "a.mtl", "list.json", "notes.txt"
+        )
+        refused = {one.path.name: one.refusal for one in find([folder]) if one.refusal}
+        assert sorted(refused) == ["b.fbx", "c.STEP", "d.usdz", "e.obj.dvc"]
+        assert refused["b.fbx"] == "FBX, which is not read: open it in Blender and export it as GLB or OBJ"
+        assert names(folder)[0] == "a"
+
+    def test_a_link_that_leads_nowhere_is_listed_for_its_reader(self, tree):
+        folder = tree("a.obj")
+        (folder / "b.obj").symlink_to(folder / ".git" / "annex" / "b.obj")
+        assert names(folder) == ["a", "b"]
+
+    def test_a_name_that_is_not_utf_8_is_shown_with_its_letters_and_keeps_its_path(self, tree):
+        path = os.fsdecode(os.fsencode(tree("a.obj")) + b"/st\xfchl\x81.obj")
+        Path(path).write_bytes(b"")
+        odd = find([Path(path).parent])[1]
+        assert odd.name == "st\xfchl\ufffd" and odd.path == Path(path)
 
     def test_nothing_there(self, tree):
-        folder = tree("a.fbx", "b.FBX", "x/wood.jpg", "x/readme")
+        folder = tree("a.fbx", "b.FBX", "x/wood.tga", "x/readme")
         with pytest.raises(CollectionError) as error:
             find([folder])
-        assert str(error.value) == (
-            f"{folder} holds no shapes: looked for .3mf .glb .gltf .obj .off .ply .png .stl .svg, "
-            "found 2 .fbx, 1 without extension, 1 .jpg"
+        first, *more = str(error.value).splitlines()
+        assert first == (
+            f"{folder} holds no shapes: looked for .3mf .glb .gltf .obj .off .ply .png .stl .svg and other pictures, "
+            "found 2 .fbx, 1 without extension, 1 .tga"
         )
+        assert more == [
+            f"{name}: FBX, which is not read: open it in Blender and export it as GLB or OBJ"
+            for name in ("a.fbx", "b.FBX")
+        ]
 
     def test_nothing_there_at_all(self, tmp_path):
         with pytest.raises(CollectionError, match="found no files at all"):
@@ -78,7 +110,7 @@ class TestFolder:
         def refuse(path):
             raise PermissionError(13, "Permission denied", str(path))
 
-        monkeypatch.setattr(Path, "iterdir", refuse)
+        monkeypatch.setattr(os, "scandir", refuse)
         with pytest.raises(CollectionError, match=r"cannot look into .*: Permission denied"):
             find([folder])
 
@@ -201,7 +233,9 @@ class TestPath:
             find([folder / "Q"])
 
     def test_another_kind_of_file(self, tree):
-        with pytest.raises(CollectionError, match=r"a\.fbx is not a kind of file that is read; \.3mf .* and \.csv are"):
+        with pytest.raises(
+            CollectionError, match=r"a\.fbx is not a kind of file that is read; \.3mf .* and \.csv are\na\.fbx: FBX"
+        ):
             find([tree("a.fbx") / "a.fbx"])
 
     def test_an_empty_list(self):

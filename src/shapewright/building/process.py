@@ -36,7 +36,8 @@ class WorkerProcess:
             address = None if sys.platform == "win32" else str(Path(folder) / "worker")
             with Listener(address, authkey=key) as listener:
                 self.process = subprocess.Popen(
-                    [sys.executable, "-m", _PROGRAM, str(listener.address)],
+                    # -P: a random.py of the author in the working folder is not Python's.
+                    [sys.executable, "-P", "-m", _PROGRAM, str(listener.address)],
                     stdin=subprocess.PIPE,
                     stdout=sys.stderr.fileno() if _has_descriptor(sys.stderr) else subprocess.DEVNULL,
                     env={**os.environ, **SINGLE_THREADED},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 
 import typer
@@ -32,6 +33,9 @@ for command in (new, fit, explain, mark, evaluate, sample, silhouettes, report, 
 
 def main() -> None:
     """Run a command; a failure prints one message that says what to do, and the exit status is not 0."""
+    for stream in (sys.stdout, sys.stderr):  # names of files may hold what no terminal can show
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     try:
         app()
     except KeyboardInterrupt:

@@ -14,6 +14,7 @@ from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Wo
 from shapewright.procedures import load_procedure
 from shapewright.settings import Settings
 from shapewright.shapes.files import Format
+from shapewright.storage import printable
 
 
 def sample(
@@ -63,7 +64,7 @@ def silhouettes(
     from shapewright.references.silhouette_drawings import write_silhouettes
 
     loaded = Collection.load(references, up=up, front=front)
-    skipped = {str(path): reason for path, reason in loaded.skipped.items()}
+    skipped = {printable(path): reason for path, reason in loaded.skipped.items()}
     paths, unseen = write_silhouettes(loaded, out_dir.absolute(), view, format, workers)
     for name, reason in (skipped | unseen).items():
         err.print(f"[yellow]skipped[/] {escape(name)}: {escape(reason)}", highlight=False, soft_wrap=True)

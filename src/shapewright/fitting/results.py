@@ -18,6 +18,7 @@ from shapewright.procedures import Procedure
 from shapewright.progress import Stages
 from shapewright.runs.iteration import Iteration, draw_pictures
 from shapewright.runs.result import Result
+from shapewright.storage import printable
 
 VERSIONED = ("shapewright", "numpy", "torch", "numba", "manifold3d", "scikit-learn", "trimesh")
 """Packages on which results depend."""
@@ -90,7 +91,7 @@ def recorded(
             "up": references.up,
             "front": references.front,
             "count": len(references),
-            "skipped": {str(path): reason for path, reason in references.skipped.items()},
+            "skipped": {printable(path): reason for path, reason in references.skipped.items()},
         },
         metrics={
             "samples": predictor.samples,

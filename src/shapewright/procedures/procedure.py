@@ -7,6 +7,7 @@ import hashlib
 import inspect
 import linecache
 import sys
+import sysconfig
 import typing
 from collections.abc import Callable
 from pathlib import Path
@@ -64,7 +65,7 @@ class Procedure:
         self.space = _space(function, self.place)
         self.path: Path | None = None
 
-    def __call__(self, *args: Any, **kwargs: Any) -> Shape:
+    def __call__(self, /, *args: Any, **kwargs: Any) -> Shape:
         """Build the shape for these parameters; those left out are at their defaults.
 
         Values outside a Range are the caller's own risk: the function is called with what it is given.
@@ -157,7 +158,7 @@ def _execute(path: Path) -> ModuleType:
     folder = str(path.parent)
     before = set(sys.modules)
     sys.modules[module.__name__] = module
-    sys.path.insert(0, folder)
+    sys.path.insert(_behind_standard_library(), folder)
     linecache.checkcache(str(path))
     try:
         exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
@@ -167,7 +168,7 @@ def _execute(path: Path) -> ModuleType:
         place = Place(error.filename or str(path), error.lineno, (error.text or "").strip() or None)
         raise ProcedureError(error.msg, place) from error
     except Exception as error:
-        raise ProcedureError(describe(error), place_of(error, path)) from error
+        raise ProcedureError(describe(error) + _hidden_helper(error, path.parent), place_of(error, path)) from error
     except SystemExit as error:
         raise ProcedureError(f"{path}: the file ended the program (sys.exit) while it was read") from error
     finally:
@@ -176,6 +177,23 @@ def _execute(path: Path) -> ModuleType:
             sys.path.append(folder)
         _forget_siblings(path.parent, before)
     return module
+
+
+def _behind_standard_library() -> int:
+    """Where in ``sys.path`` the author's folder goes: before other packages, behind Python's own modules.
+
+    Libraries import those late too, and would get the author's file of the same name.
+    """
+    own = {sysconfig.get_path("stdlib"), sysconfig.get_path("platstdlib")}
+    own |= {str(Path(folder) / "lib-dynload") for folder in own}
+    return max((i + 1 for i, folder in enumerate(sys.path) if folder in own), default=0)
+
+
+def _hidden_helper(error: Exception, folder: Path) -> str:
+    """What an import of the author's own file means that has the name of one of Python's modules."""
+    name = error.name.partition(".")[0] if isinstance(error, ImportError) and error.name else ""
+    hidden = name in sys.stdlib_module_names and (folder / f"{name}.py").is_file()
+    return f"; {folder / name}.py has the name of one of Python's modules: rename it" if hidden else ""
 
 
 def _forget_siblings(folder: Path, before: set[str]) -> None:
@@ -204,6 +222,8 @@ def _parameter(item: inspect.Parameter, hint: Any) -> Parameter:
     name, default = item.name, item.default
     if item.kind in (item.VAR_POSITIONAL, item.VAR_KEYWORD):
         raise ValueError(f"parameter {name!r}: * and ** parameters have no space; name each one")
+    if item.kind is item.POSITIONAL_ONLY:
+        raise ValueError(f"parameter {name!r} stands before a /, and parameters are given by name; leave the / out")
     if hint is None:
         raise ValueError(f"parameter {name!r} has no annotation; use {_KINDS}")
     kind, extras = (get_args(hint)[0], get_args(hint)[1:]) if get_origin(hint) is Annotated else (hint, ())

@@ -18,6 +18,7 @@ from shapewright.references.orientation import QUARTER_TURNS, Orientation
 from shapewright.references.readers import formats as files
 from shapewright.shapes import Drawing, Floats, Mesh, Shape, Transform, shape_digest
 from shapewright.shapes.conversion import as_shape
+from shapewright.storage import printable
 
 _REASONS = 5
 
@@ -28,7 +29,7 @@ class Reference:
 
     Attributes:
         name: unique in its collection.
-        path: its file, None for a shape made in memory.
+        path: its file, of one in an archive the paths of the archive and inside of it; None for a shape made in memory.
         shape: the mesh, Y up, front towards +Z, or the drawing; the bounding box is centred and its largest side is 1.
         transform: how it was centred and scaled, after it was turned.
         orientation: how a mesh was turned.
@@ -111,7 +112,7 @@ class Collection:
         up: str = "y",
         front: str | None = None,
     ) -> Collection:
-        """Read a collection from a folder, a glob pattern, a CSV manifest, a file, or a list of these.
+        """Read a collection from a folder, an archive, a glob pattern, a CSV manifest, a file, or a list of these.
 
         It reads meshes in OBJ, PLY, STL, OFF, GLB, glTF and 3MF, and drawings in SVG and pictures.
         ``sources.find`` says which files a source stands for and how they are named. A file that cannot be read is
@@ -129,7 +130,7 @@ class Collection:
             try:
                 references.append(read_reference(file))
             except UnreadableError as error:
-                skipped[file.path] = str(error)
+                skipped[file.place] = printable(str(error))
         if not references:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
@@ -188,8 +189,10 @@ class Collection:
 
 def read_reference(source: sources.Source) -> Reference:
     """One file of those that ``sources.find`` lists. Raises UnreadableError, with the reason."""
+    if source.refusal:
+        raise UnreadableError(source.refusal)
     shape, notes = files.read(source.path)
-    return _normalised(source.name, source.path, shape, source.orientation, notes)
+    return _normalised(source.name, source.place, shape, source.orientation, notes)
 
 
 def _normalised(

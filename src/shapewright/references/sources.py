@@ -14,17 +14,24 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
-from shapewright.references.errors import CollectionError
+from shapewright.references.archives import is_archive, stem, unpacked
+from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.orientation import Orientation
+from shapewright.references.other_kinds import refusal
 from shapewright.references.readers.formats import EXTENSIONS, MESHES
+from shapewright.references.readers.pictures import KINDS as PICTURES
+from shapewright.storage import printable
 
 Origin: TypeAlias = str | os.PathLike[str]
 _SHAPENET = ("models", "model_normalized.obj")
 MANIFEST = ".csv"
 """The extension of a table that lists files."""
-_LOOKED_FOR = " ".join(EXTENSIONS)
+_LOOKED_FOR = " ".join(sorted((*MESHES, ".svg", ".png"))) + " and other pictures"
 _SHOWN = 5
-_TEXTURE = ".png"
+_OURS = frozenset(["iteration.json", "samples.json"])
+"""Files of which one is in each run and in each folder of samples: their shapes are replicas, and no references."""
+_IS_UNPACKED = "an archive beside a folder of its name, which is read in its place"
+_AMONG_MESHES = "a drawing below a folder of meshes; load drawings for themselves, with a pattern such as '*.svg'"
 
 
 @dataclass(frozen=True)
@@ -35,20 +42,32 @@ class Source:
         name: of its reference, unique among all sources.
         path: the file.
         orientation: the axes that point up and to the front in it.
+        archive: the archive that it was unpacked from; None for a file that lies where it was found.
+        inside: its path in the archive.
+        refusal: why it is not read, where that is known by its name or place; else None.
     """
 
     name: str
     path: Path
     orientation: Orientation
+    archive: Path | None = None
+    inside: Path = Path()
+    refusal: str | None = None
+
+    @property
+    def place(self) -> Path:
+        """Where the file is, for a person: for one of an archive the paths of the archive and inside of it."""
+        return self.archive / self.inside if self.archive else self.path
 
 
 def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> list[Source]:
     """The files of a collection, in natural order of their names (chair2 before chair10).
 
-    A folder gives the files directly in it. When none of them is a shape, it gives those of all folders below. Beside
-    meshes and above them PNG files are textures and previews, and are left out. A pattern is a glob, ``**`` included.
-    A ``.csv`` file is a manifest with a column ``path``, relative to the manifest, and if wanted the columns ``name``,
-    ``up`` and ``front``; for an empty cell the argument holds. Hidden files and files of other kinds are left out.
+    A folder gives the files in it and in all folders below, but those that this program wrote there: runs and samples.
+    Beside meshes pictures are textures and previews, and are left out. A ``.zip`` or ``.tar`` file, packed or not, is
+    read as a folder. A pattern is a glob, ``**`` included. A ``.csv`` file is a manifest with a column ``path``,
+    relative to the manifest, and if wanted the columns ``name``, ``up`` and ``front``; for an empty cell the argument
+    holds. Hidden files are left out. Shapes of a kind that is not read have their refusal; other files are left out.
     A name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj`` (ShapeNet). Where names clash
     the path takes its place. Raises CollectionError where there is nothing to read.
     """
@@ -61,10 +80,10 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> 
             if path.suffix.lower() == MANIFEST and path.is_file():
                 sources += _in_manifest(path, up, front)
             else:
-                sources += [Source(_stem(file), file, default) for file in _expand(path, alone=len(origins) == 1)]
+                sources += _expand(path, default, alone=len(origins) == 1)
     except OSError as error:
         raise CollectionError(f"cannot look into {error.filename}: {error.strerror}") from error
-    names = _unique([source.name for source in sources], [source.path for source in sources])
+    names = [printable(name) for name in _unique([one.name for one in sources], [one.place for one in sources])]
     named = (replace(source, name=name) for source, name in zip(sources, names, strict=True))
     return sorted(named, key=lambda source: natural_key(source.name))
 
@@ -75,30 +94,72 @@ def natural_key(name: str) -> tuple[list[int | str], str]:
     return [int(piece) if i % 2 else piece for i, piece in enumerate(pieces)], name
 
 
-def _expand(path: Path, alone: bool) -> list[Path]:
+def _expand(path: Path, default: Orientation, alone: bool) -> list[Source]:
     """The files that one origin stands for; a missing or strange file in a list is left for its reader to report."""
     if path.is_dir():
-        return _in_folder(path)
+        return _in_folder(path, default)
     if not path.exists() and glob.has_magic(str(path)):
-        return _in_pattern(path)
+        return _in_pattern(path, default)
     if alone and not path.exists():
         raise CollectionError(f"no such file or folder: {path}{_alternatives(path)}")
+    if is_archive(path):
+        found = _in_archive(path, default)
+        if alone and all(one.refusal for one in found):
+            raise CollectionError(f"{path}: {found[0].refusal}")
+        return found
     if alone and not _is_shape(path):
-        raise CollectionError(f"{path} is not a kind of file that is read; {_LOOKED_FOR} and {MANIFEST} are")
-    return [path]
+        why = refusal(path)
+        also = f"\n{path.name}: {why}" if why else ""
+        raise CollectionError(f"{path} is not a kind of file that is read; {_LOOKED_FOR} and {MANIFEST} are{also}")
+    return [Source(_stem(path), path, default)]
 
 
-def _in_folder(folder: Path) -> list[Path]:
-    direct = _without_textures([path for path in folder.iterdir() if path.is_file() and _is_shape(path)])
-    if any(path.suffix.lower() != _TEXTURE for path in direct):
-        return sorted(direct)
-    below = sorted(_walk(folder))
-    shapes = _without_textures([path for path in below if _is_shape(path)])
-    if direct and not any(_is_mesh(path) for path in shapes):
-        return sorted(direct)
-    if not shapes:
-        raise CollectionError(f"{folder} holds no shapes: looked for {_LOOKED_FOR}, found {_kinds(below)}")
-    return shapes
+def _in_folder(folder: Path, default: Orientation) -> list[Source]:
+    files = sorted(_walk(folder))
+    found = _chosen(files, default)
+    if all(source.refusal for source in found):
+        reasons = "".join(f"\n{one.path.name}: {one.refusal}" for one in found[:_SHOWN])
+        raise CollectionError(f"{folder} holds no shapes: looked for {_LOOKED_FOR}, found {_kinds(files)}{reasons}")
+    return found
+
+
+def _chosen(files: Sequence[Path], default: Orientation) -> list[Source]:
+    """The shapes among files, those in archives, and with its refusal each file of shapes that is not read.
+
+    Where there are meshes pictures are none; drawings below a folder of meshes are not read.
+    """
+    shapes = [path for path in files if _is_shape(path)]
+    archived = [source for path in files if is_archive(path) for source in _in_archive(path, default)]
+    meshes = [path for path in shapes if _is_mesh(path)]
+    meshes += [source.path for source in archived if not source.refusal and _is_mesh(source.path)]
+    above = min((len(path.parts) for path in meshes), default=0)
+    sources: list[Source] = []
+    for path in shapes:
+        if not (meshes and path.suffix.lower() in PICTURES):
+            drawn = bool(meshes) and not _is_mesh(path) and len(path.parts) > above
+            sources.append(Source(_stem(path), path, default, refusal=_AMONG_MESHES if drawn else None))
+    refused = [(path, refusal(path)) for path in files if not (_is_shape(path) or is_archive(path))]
+    return sources + archived + [Source(path.name, path, default, refusal=why) for path, why in refused if why]
+
+
+def _in_archive(path: Path, default: Orientation) -> list[Source]:
+    """The shapes of an archive, or the archive with its refusal."""
+    if (path.parent / stem(path)).is_dir():
+        return [Source(path.name, path, default, refusal=_IS_UNPACKED)]
+    try:
+        folder = unpacked(path)
+    except UnreadableError as error:
+        return [Source(path.name, path, default, refusal=str(error))]
+    files = sorted(_walk(folder))
+    meshes = any(_is_mesh(file) for file in files)
+    sources: list[Source] = []
+    for file in files:
+        inside = file.relative_to(folder)
+        if _is_shape(file) and not (meshes and file.suffix.lower() in PICTURES):
+            sources.append(Source(_stem(path / inside), file, default, path, inside))
+        elif why := refusal(file):
+            sources.append(Source(file.name, file, default, path, inside, why))
+    return sources or [Source(path.name, path, default, refusal=f"an archive that holds no shapes: {_LOOKED_FOR}")]
 
 
 def _walk(folder: Path) -> Iterator[Path]:
@@ -110,22 +171,26 @@ def _walk(folder: Path) -> Iterator[Path]:
             folders.clear()
             continue
         entered.add(os.path.realpath(root))
-        yield from (Path(root, name) for name in files if not _is_hidden(name))
+        if root != os.fspath(folder) and _OURS.intersection(files):
+            folders.clear()
+            continue
+        paths = (Path(root, name) for name in files if not _is_hidden(name))
+        yield from (path for path in paths if path.is_file() or (path.is_symlink() and not path.exists()))
 
 
 def _raise(error: OSError) -> None:
     raise error
 
 
-def _in_pattern(pattern: Path) -> list[Path]:
+def _in_pattern(pattern: Path, default: Orientation) -> list[Source]:
     # Path.glob takes no absolute pattern.
     matches = [Path(match) for match in sorted(glob.glob(str(pattern), recursive=True))]  # noqa: PTH207
-    files = [path for path in matches if path.is_file()]
-    shapes = _without_textures([path for path in files if _is_shape(path)])
-    if not shapes:
-        found = _kinds(files) + ("; it matches folders: add /* to it" if len(matches) > len(files) else "")
-        raise CollectionError(f"{pattern} matches no shapes: looked for {_LOOKED_FOR}, found {found}")
-    return shapes
+    files = [path for path in matches if path.is_file() and not _is_hidden(path.name)]
+    found = _chosen(files, default)
+    if all(source.refusal for source in found):
+        kinds = _kinds(files) + ("; it matches folders: add /* to it" if len(matches) > len(files) else "")
+        raise CollectionError(f"{pattern} matches no shapes: looked for {_LOOKED_FOR}, found {kinds}")
+    return found
 
 
 def _in_manifest(manifest: Path, up: str, front: str | None) -> list[Source]:
@@ -185,12 +250,6 @@ def _is_shape(path: Path) -> bool:
 
 def _is_mesh(path: Path) -> bool:
     return path.suffix.lower() in MESHES
-
-
-def _without_textures(paths: Sequence[Path]) -> list[Path]:
-    """The shapes among files; where there are meshes among them, PNG files are none."""
-    meshes = any(_is_mesh(path) for path in paths)
-    return [path for path in paths if not (meshes and path.suffix.lower() == _TEXTURE)]
 
 
 def _is_hidden(name: str) -> bool:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.other_kinds import refusal
 from shapewright.references.readers.gltf.scene import read_gltf
 from shapewright.references.readers.obj import read_obj
 from shapewright.references.readers.off import read_off
@@ -33,6 +34,7 @@ _SCENES: dict[str, Callable[[Path, bytes], tuple[Floats, Ints, tuple[str, ...]]]
 }
 _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {
     ".svg": read_svg,
+    ".svgz": read_svg,
     **dict.fromkeys(PICTURES, read_picture),
 }
 MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF")
@@ -40,6 +42,7 @@ MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF")
 MESHES = tuple(f".{name.lower()}" for name in MESH_FORMATS)
 EXTENSIONS = tuple(sorted((*MESHES, *_DRAWINGS)))
 
+_FETCH = "where git-annex or DVC keeps the files, fetch them with `git annex get` or `dvc pull`"
 _LEAST_AREA = 1e-12
 """Share of the squared extent: a shape whose triangles all cover less shows in no picture."""
 _AT_ONCE = 100_000
@@ -55,15 +58,19 @@ def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
     """
     kind = path.suffix.lower()
     if kind not in EXTENSIONS:
-        raise UnreadableError(f"not a kind of file that is read ({' '.join(EXTENSIONS)})")
+        raise UnreadableError(refusal(path) or f"not a kind of file that is read ({' '.join(EXTENSIONS)})")
     try:
         data = path.read_bytes()
     except OSError as error:
+        if path.is_symlink() and not path.exists():
+            raise UnreadableError(f"a link to a file that is not there; {_FETCH}") from error
         raise UnreadableError(str(error.strerror).lower()) from error
     if not data:
         raise UnreadableError("the file is empty")
     if data.startswith(b"version https://git-lfs"):
         raise UnreadableError("a pointer of Git LFS, not the file itself; fetch it with `git lfs pull`")
+    if data.startswith(b"/annex/objects/"):
+        raise UnreadableError(f"a pointer of git-annex, not the file itself; {_FETCH}")
     try:
         if kind in _DRAWINGS:
             return _DRAWINGS[kind](data)

@@ -48,8 +48,11 @@ def listing(origin: Origin) -> Listing:
     """The references of a source, unread. Raises CollectionError as ``find`` does."""
     sources = find([origin.source], origin.up, origin.front)
     home = Path(origin.confine).resolve() if origin.confine else None
-    skipped = {one.path: _OUTSIDE for one in sources if home and not one.path.resolve().is_relative_to(home)}
-    inside = [source for source in sources if source.path not in skipped]
+    skipped = {one.place: one.refusal for one in sources if one.refusal}
+    for one in sources:
+        if home and not (one.archive or one.path).resolve().is_relative_to(home):
+            skipped[one.place] = _OUTSIDE
+    inside = [source for source in sources if source.place not in skipped]
     slugs = file_names(tuple(source.name for source in inside))
     return Listing({slugs[source.name]: source for source in inside}, skipped)
 

@@ -16,6 +16,7 @@ from shapewright.parameters import Parameters
 from shapewright.runs.folder import read_record
 from shapewright.runs.result import MEASURES, grade_in
 from shapewright.settings import Settings
+from shapewright.storage import printable
 from shapewright.studio.project.listing import Listing
 from shapewright.studio.project.picture_store import Pictures
 from shapewright.studio.session.standard import Standard
@@ -160,7 +161,7 @@ def lay_out(
         slug: ReferenceState(slug, source.name, reference=kept.get(slug), previous=before.get(source.name))
         for slug, source in listed.sources.items()
     }
-    skipped = {str(path): reason for path, reason in listed.skipped.items()}
+    skipped = {printable(path): printable(reason) for path, reason in listed.skipped.items()}
     if run is None or record is None:
         return Board(references, standard=standard, skipped=skipped)
     slugs = {state.name: slug for slug, state in references.items()}

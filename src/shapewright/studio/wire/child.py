@@ -46,7 +46,7 @@ class Child:
     ) -> None:
         self._leads = own_group and os.name == "posix"
         self.process = subprocess.Popen(
-            [sys.executable, "-m", module],
+            [sys.executable, "-P", "-m", module],  # -P: a random.py of the author in the working folder is not Python's
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env={**os.environ, **(environment or {})},

@@ -1,0 +1,50 @@
+"""Files of shapes that are not read: what each kind is called, and the way out of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_BLENDER = "open it in Blender and export it as GLB or OBJ"
+_CAD = "export it from a CAD program, such as FreeCAD, as STL or 3MF"
+_OWN = "export it from its own program as GLB, OBJ or STL"
+_POINTS = "points without faces; make a surface of it, for example in MeshLab, and save it as PLY"
+_DRAWN = "export it from its own program as SVG or PNG"
+_UNPACK = "unpack it"
+
+_KINDS = {
+    ("FBX", _BLENDER): "fbx",
+    ("a Blender file", _BLENDER): "blend",
+    ("Collada", _BLENDER): "dae",
+    ("USD", _BLENDER): "usd usda usdc usdz",
+    ("Alembic", _BLENDER): "abc",
+    ("X3D", _BLENDER): "x3d x3db x3dv",
+    ("VRML", _BLENDER): "wrl vrml",
+    ("3D Studio", _BLENDER): "3ds ase",
+    ("LightWave", _BLENDER): "lwo lws",
+    ("DirectX", _BLENDER): "x",
+    ("VRM", "rename it to .glb"): "vrm",
+    ("AMF", "save it as 3MF or STL"): "amf",
+    ("STEP", _CAD): "step stp stpz",
+    ("IGES", _CAD): "iges igs",
+    ("a CAD model", _CAD): "brep brp fcstd sldprt sldasm ipt iam prt catpart catproduct sat sab x_t x_b jt f3d 3dxml",
+    ("OpenSCAD", "render it and export it as STL"): "scad",
+    ("IFC", "open it in Blender with Bonsai and export it as GLB"): "ifc",
+    ("a Rhino model", _OWN): "3dm",
+    ("a scene", _OWN): "max ma mb c4d hip hipnc skp zpr ztl spp rvt rfa bgeo geo",
+    ("a model of a game", _OWN): "md2 md3 md5mesh mdl nif pmx pmd vox smd b3d ms3d mesh",
+    ("VTK", "open it in ParaView and save its surface as PLY"): "vtk vtp vtu vti",
+    ("a mesh of simulation", "save its surface as PLY or STL"): "msh inp bdf nas unv cgns med mphtxt",
+    ("a point cloud", _POINTS): "xyz pts pcd las laz e57 ptx pwn",
+    ("Gaussian splats", _POINTS): "splat spz ksplat",
+    ("HEIC", "save it as JPEG or PNG"): "heic heif",
+    ("a drawing", _DRAWN): "dxf dwg eps ai pdf cdr psd xcf kra drawio vsdx emf wmf",
+    ("an archive", _UNPACK): "rar 7z gz bz2 xz zst z lz4 zip tar tgz tbz2 txz cab iso",
+    ("a pointer of DVC", "fetch the file with `dvc pull`"): "dvc",
+}
+_BY_EXTENSION = {f".{end}": kind for kind, ends in _KINDS.items() for end in ends.split()}
+
+
+def refusal(path: Path) -> str | None:
+    """Why a file of this name is not read, and what to do; None for a name that is no known kind of shapes."""
+    kind = _BY_EXTENSION.get(path.suffix.lower())
+    return f"{kind[0]}, which is not read: {kind[1]}" if kind else None
