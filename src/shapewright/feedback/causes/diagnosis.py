@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 from typing import Any
 
@@ -54,7 +55,8 @@ def or_leaning(case: Case, lean: Leaning | None) -> Case:
     """
     apart = case.overlay(case.covering.mesh)
     if lean is None or lean.apart >= _LEANS * apart:
-        return case
+        slope = _slopes(case.causes)
+        return replace(case, causes=(slope, *case.causes[1:])) if slope else case
     others = (cause for cause in case.causes if cause.kind not in ("missing part", "wrong form"))
     return replace(case, causes=(_leans(lean, apart, case.replica.mesh), *others))
 
@@ -70,6 +72,16 @@ def _suffice(case: Case) -> bool:
     if not enough and case.proportion is None:
         return False
     return case.overlay(case.outside.mesh) < _TOGETHER * case.overlay(case.covering.mesh)
+
+
+def _slopes(causes: Sequence[Cause]) -> Cause | None:
+    """Bars that slope, in place of a part that is too much, are another form of it."""
+    chief, surplus = causes[0], [cause for cause in causes if cause.kind == "surplus part" and cause.label]
+    form = chief.evidence.get("form", {})
+    if not surplus or form.get("lie") != "sloping" or form.get("kind") != "bar":
+        return None
+    text = f"another form of {surplus[0].label}: sloping in the reference; {chief.text}"
+    return replace(chief, kind="wrong form", text=text, label=surplus[0].label)
 
 
 def _leans(lean: Leaning, before: float, shown: Mesh) -> Cause:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from shapewright.building import Workers
 from shapewright.feedback.parts.supports import supports, with_splayed
 from shapewright.feedback.surfaces.placement import Overlay
-from shapewright.parameters import Parameters
+from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.search.candidates import others
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
@@ -40,13 +40,15 @@ def leaning(
 
     standing: the parameters of each reference's replica, and the reference's overlay. known: another replica of each.
     Parts are those of the replicas, and of shapes with one other choice: where parts that lean are not recognised, the
-    replica may well stand on others.
+    replica may well stand on others. They are tried with all numbers away from the ends of their Ranges, too: parts
+    that cannot lean become thin.
     """
     space, most = crew.procedure.space, max(1, _SHAPES // max(len(standing), 1))
     asked: list[tuple[int, Parameters]] = []
     for i, (parameters, _) in enumerate(standing):
         centre = space.encode(parameters)
-        vectors = [centre, *others(space, centre)][:most]
+        thicker = space.encode(_unpressed(space, parameters))
+        vectors = space.distinct([centre, thicker, *others(space, centre)])[:most]
         asked += [(i, space.canonical(space.decode(vector))) for vector in vectors]
     meshes: list[list[Mesh]] = [[mesh] for mesh in known] or [[] for _ in standing]
     for (i, _), build in zip(asked, crew.build([values for _, values in asked]), strict=True):
@@ -70,3 +72,8 @@ def leaning(
         return min([least, *aside], key=lambda candidate: candidate.apart)
 
     return in_threads(best, range(len(standing)), threads)
+
+
+def _unpressed(space: ParameterSpace, parameters: Parameters) -> Parameters:
+    """The parameters with every number that rests on an end of its Range at its default."""
+    return {**parameters, **{name: space[name].default for name, _ in space.pressed(parameters)}}

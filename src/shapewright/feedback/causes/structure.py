@@ -20,7 +20,7 @@ _ALIKE = 1.6  # ratio of the sides of two boxes up to which they are the same pa
 _EQUAL = 1.25  # of sides and of shares, up to which two regions are one part wherever they are
 _SLACK = 0.03  # added to sides before they are compared
 _NEARBY = 0.15  # how far apart the middles of such boxes may be, where both are smaller
-_LESSER = 0.5  # of a surplus part where something is unexplained: it stands in for that
+_LESSER = 0.25  # of a surplus part where something is unexplained: it stands in for that
 _MINOR = 0.3  # of the weightiest difference: below it is left out
 
 
@@ -57,8 +57,9 @@ def differences(residuals: Residuals | Areas) -> tuple[Difference, ...]:
     if most == 0.0:
         return (Difference("wrong form", (), 0.0),)
     unexplained = sum(region.weight for region in residuals.of("unexplained"))
+    kept = [kind for kind in weights if weights[kind] >= _MINOR * most]
     weights["surplus part"] *= 1.0 if unexplained < _MINOR * most else _LESSER
-    kinds = [kind for kind in sorted(weights, key=lambda kind: -weights[kind]) if weights[kind] >= _MINOR * most]
+    kinds = sorted(kept, key=lambda kind: -weights[kind])
     return tuple(Difference(kind, _weightiest(sorted_out[kind]), weights[kind]) for kind in kinds)
 
 

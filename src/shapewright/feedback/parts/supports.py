@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from shapewright.feedback.surfaces.connection import connected
 from shapewright.shapes import Floats, Mesh, concatenate
 
 _FLOOR, _TALL = 0.05, 0.15  # of the largest extent: how low a part that may lean begins, and how tall it is at least
@@ -28,11 +29,29 @@ def splayed(part: Mesh, factors: Floats) -> Mesh:
 
 
 def with_splayed(replica: Mesh, label: str, factor: float, deeper: float) -> Mesh:
-    """A replica with one labelled part splayed by the factors from left to right and from front to back, as a soup."""
+    """A replica with one labelled part splayed by the factors from left to right and from front to back, as a soup.
+
+    Each connected piece of it leans as a whole: it stays as thick as it is.
+    """
     assert replica.face_labels is not None
     of_part = replica.face_labels == replica.label_names.index(label)
     rest, part = Mesh(replica.vertices, replica.faces[~of_part]), Mesh(replica.vertices, replica.faces[of_part])
-    leaning = splayed(part, np.array([factor, 1.0, deeper]))
+    low, high = part.bounds
+    used = np.unique(part.faces)
+    _, welded = np.unique(np.round(part.vertices[used], 6), axis=0, return_inverse=True)
+    corner = np.zeros(len(part.vertices), dtype=np.int64)
+    corner[used] = welded.reshape(-1)
+    joined = corner[part.faces]
+    count, component = connected(int(joined.max()) + 1, joined[:, :2].ravel(), joined[:, 1:].ravel())
+    of_vertex = component[corner[used]]
+    vertices = part.vertices.copy()
+    for number in range(count):
+        rows = used[of_vertex == number]
+        places = vertices[rows]
+        aside = (places.min(axis=0) + places.max(axis=0) - low - high) / 2.0
+        down = (high[1] - places[:, 1:2]) / max(high[1] - low[1], 1e-9)
+        vertices[rows] = places + down * aside * [factor - 1.0, 0.0, deeper - 1.0]
+    leaning = Mesh(vertices, part.faces)
     return concatenate([rest, leaning]) if len(rest.faces) else leaning
 
 
