@@ -84,7 +84,7 @@ class Resources:
             value = match[2] or "none"
         if value.startswith("context-"):
             if place.context is None:
-                return ()
+                return () if outline else (Fill(area, None),)
             (other, around), own = place.context, value.removeprefix("context-")
             faded = {**other.style, f"{own}-opacity": str(opacity)}
             found = self.painted(own, area, replace(other, style=faded, shown=place.shown), around)
@@ -180,7 +180,8 @@ class Resources:
     ) -> tuple[Item, ...] | None:
         """An area with a gradient or pattern; None where it has none, so that the fallback is painted."""
         chain = list(servers.templates(self._document, server))
-        chain = [one for one in chain if (name(one) == "pattern") == (name(server) == "pattern")]
+        kinds = ("pattern",) if name(server) == "pattern" else ("linearGradient", "radialGradient")
+        chain = [one for one in chain if name(one) in kinds]
         try:
             if name(server) == "pattern":
                 return self._tiled(chain, area, place, box, opacity, outline)

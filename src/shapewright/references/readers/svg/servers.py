@@ -110,6 +110,7 @@ def gradient(
     )
     if not r > 0.0:
         return last
+    fr = max(fr, 0.0)
     away = np.hypot(fx - cx, fy - cy)
     if away + fr > r * 0.999:  # a focus outside is moved to the rim (SVG 1.1)
         share = max(r * 0.999 - fr, 0.0) / max(away, 1e-12)
@@ -165,8 +166,6 @@ def tiling(chain: Sequence[Element], frame: Floats, view: Viewport, box: Floats,
         return None
     if view_box:
         content = coordinates.fitted(view_box, width, height, attribute(chain, "preserveAspectRatio"))
-    elif within != "objectBoundingBox":
-        content = matrix(e=-x, f=-y)
     corners = apply(inverse(frame), np.array([[a, b] for a in bounds[:, 0] for b in bounds[:, 1]]))
     low = np.floor((corners.min(axis=0) - [x, y]) / [width, height]).astype(int)
     high = np.ceil((corners.max(axis=0) - [x, y]) / [width, height]).astype(int)

@@ -21,7 +21,7 @@ _ASKED = 400
 MOST = 1024
 """Pixels along the longer side of the grid."""
 _HALF = 0.499
-"""Of a pixel: a half itself would put outlines on pixel centres, where they touch one another."""
+"""Darker is ink: black at 50 % is, and grey 128 of 255 is not. At a half itself outlines would touch one another."""
 _FINE = 2
 """Samples along each side of a pixel of the grid."""
 _SNAP = 1e-10
@@ -60,7 +60,7 @@ class Faces:
 
     def dark(self, painted: Painted) -> Any:
         """The union of the faces that are darker than half on white."""
-        parts = self.polygons[painted.where[painted.alpha - painted.light > 0.5]]
+        parts = self.polygons[painted.where[painted.alpha - painted.light > _HALF]]
         return shapely.coverage_union_all(parts) if len(parts) > 1 else shapely.union_all(parts)
 
 
@@ -80,9 +80,17 @@ class Grid:
 
     def inside(self, area: Area) -> NDArray[np.int64]:
         """The samples that an area covers."""
-        rows, columns = self._shape
-        turns = np.zeros(rows * (columns + 1), dtype=np.int32)
         pairs = (_segments([area]) - self._corner) / self._step - 0.5
+        left, top = (int(max(np.ceil(side), 0)) for side in pairs.min(axis=(0, 1)))
+        right, bottom = (
+            min(int(np.floor(side)) + 1, most)
+            for side, most in zip(pairs.max(axis=(0, 1)), self._shape[::-1], strict=True)
+        )
+        if left >= right or top >= bottom:
+            return np.empty(0, dtype=np.int64)
+        rows, columns = bottom - top, right - left
+        pairs = pairs - [left, top]
+        turns = np.zeros(rows * (columns + 1), dtype=np.int32)
         low, high = (
             np.ceil(np.clip(ends, 0, rows)).astype(np.int64) for ends in (pairs[..., 1].min(1), pairs[..., 1].max(1))
         )
@@ -94,7 +102,8 @@ class Grid:
             column = np.ceil(np.clip(x + (row - y) / dy * dx, 0, columns)).astype(np.int64)
             np.add.at(turns, row * (columns + 1) + column, np.where(dy > 0.0, 1, -1).astype(np.int32))
         winding = turns.reshape(rows, columns + 1)[:, :-1].cumsum(axis=1)
-        return np.flatnonzero(winding % 2 if area.evenodd else winding)
+        row, column = np.nonzero(winding % 2 if area.evenodd else winding)
+        return np.asarray((row + top) * self._shape[1] + column + left, dtype=np.int64)
 
     def dark(self, painted: Painted) -> Any:
         """The outline of what is dark, by marching squares."""
@@ -124,11 +133,11 @@ def divided(fills: Sequence[Fill], box: Floats) -> Faces | Grid:
 
 
 def _crossings(areas: Sequence[Area], segments: int) -> float:
-    """About how often segments meet, beyond those that follow one another."""
+    """About how often segments cross one another."""
     lines: Any = shapely.linestrings(_segments(areas))
     asked = np.random.default_rng(0).choice(segments, _ASKED, replace=False)
-    met = shapely.STRtree(lines).query(lines[asked], predicate="intersects").shape[1]
-    return float((met / _ASKED - 3.0) * segments / 2.0)
+    met = shapely.STRtree(lines).query(lines[asked], predicate="crosses").shape[1]
+    return float(met / _ASKED * segments / 2.0)
 
 
 def _segments(areas: Sequence[Area]) -> Floats:

@@ -16,8 +16,8 @@ LUMA = (0.299, 0.587, 0.114)
 """Of red, green and blue in what is seen (ITU-R BT.601)."""
 _SAMPLES = 17
 """Of a gradient between two stops, to find where it crosses one half; the crossing is interpolated between them."""
-_LEVELS = tuple(np.arange(0.1, 0.95, 0.1).tolist())
-"""Of darkness, along which a gradient is cut where it is not opaque."""
+_BANDS = np.arange(0.04, 1.0, 0.04).tolist()
+"""Along a gradient that is not opaque: each band counts as even."""
 _REPEATS = 40
 """How often a gradient is repeated, either way, at most."""
 _CIRCLE = 64
@@ -103,8 +103,9 @@ class Gradient:
         found = self._mixed(t)
         luma, alpha = found[:, :3] @ LUMA, found[:, 3]
         turns = [] if self.spread != "repeat" else [0.0]
-        levels = _LEVELS if (alpha < 1.0).any() else (0.5,)  # what lies below matters where it shines through
-        for value in (alpha * luma - 0.5, alpha - 0.5, *(alpha * (1.0 - luma) - level for level in levels)):
+        if (alpha < 1.0).any():  # what lies below shines through, and it is not known here where it is too dark
+            turns += _BANDS
+        for value in (alpha * luma - 0.5, 0.5 - alpha * (1.0 - luma), alpha - 0.5):
             i = np.flatnonzero((value[:-1] > 0.0) != (value[1:] > 0.0))
             turns += (t[i] - value[i] * (t[i + 1] - t[i]) / (value[i + 1] - value[i])).tolist()
         turns = sorted({*turns, *jumps})
