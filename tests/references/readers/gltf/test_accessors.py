@@ -11,7 +11,7 @@ from shapewright.references.readers.gltf.document import parse
 
 def arrays(gltf: Gltf):
     document, _ = parse(gltf.text())
-    return accessors(document, views(document, None, None), len(gltf.binary))
+    return accessors(document, views(document, None, None))
 
 
 def bounds(path) -> list:
@@ -123,11 +123,22 @@ class TestSparse:
         with pytest.raises(UnreadableError, match="sparse indices of type 5126"):
             arrays(gltf).stored(0)
 
-    def test_more_elements_than_the_file_has_bytes_are_refused(self):
+    def test_more_elements_than_any_mesh_has_are_refused(self):
         gltf = Gltf()
         gltf.accessor(10**9, "VEC3", "f4", sparse=sparse(gltf, [1], [[0, 0, 0]]))
         with pytest.raises(UnreadableError, match="announces 1000000000 elements without data"):
             arrays(gltf).stored(0)
+
+
+def test_sparse_positions_of_a_large_buffer_beside_a_small_file_are_read(tmp_path):
+    gltf = Gltf()
+    points = np.repeat(CUBE[CUBE_FACES].reshape(-1, 3), 100, axis=0)
+    position = gltf.accessor(3600, "VEC3", "f4", sparse=sparse(gltf, np.arange(3600), points))
+    indices = gltf.array(np.arange(0, 3600, 100), "u2")
+    gltf.shown(gltf.mesh({"attributes": {"POSITION": position}, "indices": indices}))
+    (tmp_path / "a.bin").write_bytes(gltf.binary)
+    (tmp_path / "a.gltf").write_bytes(gltf.text(uri="a.bin"))
+    np.testing.assert_array_equal(read(tmp_path / "a.gltf")[0].triangles, CUBE[CUBE_FACES])
 
 
 def test_quantised_positions_are_whole_numbers_that_the_node_scales(tmp_path):

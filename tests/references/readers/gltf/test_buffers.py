@@ -127,6 +127,15 @@ def test_views_beyond_a_buffer_are_refused(tmp_path, view, why):
         views(parse(json.dumps(text).encode())[0], tmp_path, memoryview(b"1234"))(0)
 
 
+def test_a_view_without_data_names_what_compresses_it(tmp_path, cube):
+    cube.document["bufferViews"][0]["extensions"] = {"EXT_squeezed": {}}
+    cube.document["bufferViews"][0]["buffer"] = 1
+    cube.document["buffers"] = [{"byteLength": 1000}]
+    (tmp_path / "a.glb").write_bytes(cube.glb())
+    with pytest.raises(UnreadableError, match="buffer 1 has no data: compressed by EXT_squeezed"):
+        read(tmp_path / "a.glb")
+
+
 def test_a_buffer_without_data_is_refused(tmp_path, cube):
     text = json.loads(cube.text())
     del text["buffers"][0]["uri"]

@@ -45,6 +45,15 @@ def test_what_cannot_be_decompressed_is_refused_and_names_draco(tmp_path, data, 
             read(written(tmp_path, compressed(broken, used)))
 
 
+@pytest.mark.parametrize(("row", "count", "why"), [(0, 9, "8 vertices and 12 triangles, not 9 and 12"),
+                                                   (1, 33, "8 vertices and 12 triangles, not 8 and 11")])  # fmt: skip
+def test_a_stream_with_another_number_of_things_than_announced_is_refused(tmp_path, data, row, count, why):
+    gltf = compressed(data)
+    gltf.document["accessors"][row]["count"] = count
+    with pytest.raises(UnreadableError, match=why):
+        read(written(tmp_path, gltf))
+
+
 @pytest.mark.parametrize("attributes", [{}, {"POSITION": 7}, {"NORMAL": 0}])
 def test_a_stream_without_positions_is_refused(tmp_path, data, attributes):
     with pytest.raises(UnreadableError, match="Draco compression has no positions"):

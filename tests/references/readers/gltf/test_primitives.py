@@ -17,8 +17,8 @@ def shape(gltf: Gltf, morph=(), **primitive):
     """The geometry of a file whose only mesh has one primitive."""
     gltf.mesh(primitive)
     document, _ = parse(gltf.text())
-    read_view = views(document, None, None)
-    return geometry(document.meshes[0].primitives[0], morph, accessors(document, read_view, 1000), read_view)
+    arrays = accessors(document, views(document, None, None))
+    return geometry(document.meshes[0].primitives[0], morph, arrays, None)
 
 
 def triangles(mode, points, indices=None, kind="u2"):

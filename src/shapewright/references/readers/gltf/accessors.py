@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,10 @@ Array = NDArray[Any]
 _COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 """Numbers in an element. The small matrices, whose columns are padded, are used by nothing that is read."""
+_MOST = 2**22
+"""Elements of an accessor without a buffer view, which a small file can announce: a mesh of eight million triangles."""
+_KEPT = 8
+"""Arrays that are held at once; only sparse ones take memory of their own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,19 +67,19 @@ def as_floats(array: Array, normalized: bool) -> Floats:
     return values
 
 
-def accessors(document: Document, views: Views, size: int) -> Accessors:
-    """The arrays of a document. ``size`` bounds the elements of one without data: the bytes that the file has."""
+def accessors(document: Document, views: Views) -> Accessors:
+    """The arrays of a document."""
 
-    @cache
+    @lru_cache(_KEPT)
     def stored(index: int) -> Array:
         accessor = at(document.accessors, index, "accessor")
         kind, width = _COMPONENTS.get(accessor.component_type), _WIDTHS.get(accessor.type)
         if kind is None or width is None:
             raise UnreadableError(f"broken: accessor {index} is {accessor.type} of type {accessor.component_type}")
         if accessor.buffer_view is None:
-            if accessor.count > size:
+            if accessor.count > _MOST:
                 raise UnreadableError(f"broken: accessor {index} announces {accessor.count} elements without data")
-            array: Array = np.zeros((accessor.count, width), kind)
+            array: Array = np.broadcast_to(np.zeros(width, kind), (accessor.count, width))
         else:
             stride = at(document.buffer_views, accessor.buffer_view, "buffer view").byte_stride
             array = _array(views(accessor.buffer_view), accessor.byte_offset, accessor.count, width, kind, stride)

@@ -23,8 +23,8 @@ _SHOWN = 200
 """Letters of a URI that a message shows."""
 _LONGEST = 1024
 """Letters of a path that systems take, macOS the fewest (PATH_MAX)."""
-_MOST = 2**28
-"""Bytes that a view may have after decompression: 22 million points of three floats."""
+_MOST = 2**29
+"""Bytes that the views of a file may have after decompression: five million points and ten million triangles."""
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 _ELSEWHERE = re.compile(r"[/\\]|[A-Za-z]:[/\\]|(.*[/\\])?\.\.([/\\]|$)")
 """Paths from the root of a disk, and such that go up."""
@@ -45,6 +45,11 @@ class _Compressed(msgspec.Struct, rename="camel", frozen=True):
 def views(document: Document, folder: Path, binary: memoryview | None) -> Views:
     """What reads the buffer views of a document whose files lie in ``folder``. It raises UnreadableError."""
 
+    compressed = [_compressed(view) for view in document.buffer_views]
+    size = sum(max(view.count, 0) * max(view.byte_stride, 0) for view in compressed if view is not None)
+    if size > _MOST:
+        raise UnreadableError(f"compressed views that unpack to {size:,} bytes: too large to read")
+
     @cache
     def buffer(index: int) -> memoryview:
         described = at(document.buffers, index, "buffer")
@@ -59,14 +64,25 @@ def views(document: Document, folder: Path, binary: memoryview | None) -> Views:
     @cache
     def view(index: int) -> memoryview:
         described = at(document.buffer_views, index, "buffer view")
-        for name in MESHOPT:
-            compressed = extension(described.extensions, name, _Compressed)
-            if compressed is not None:
-                source = buffer(compressed.buffer)
-                return _decompressed(compressed, _stretch(source, compressed, f"compressed view {index}"))
-        return _stretch(buffer(described.buffer), described, f"buffer view {index}")
+        coded = compressed[index]
+        if coded is not None:
+            data = _stretch(buffer(coded.buffer), coded, f"compressed view {index}")
+            from shapewright.references.readers.gltf import meshopt
+
+            return meshopt.decoded(data, coded.count, coded.byte_stride, coded.mode, coded.filter)
+        try:
+            return _stretch(buffer(described.buffer), described, f"buffer view {index}")
+        except UnreadableError as error:
+            if described.extensions:
+                raise UnreadableError(f"{error}: compressed by {', '.join(described.extensions)}") from error
+            raise
 
     return view
+
+
+def _compressed(view: BufferView) -> _Compressed | None:
+    found = (extension(view.extensions, name, _Compressed) for name in MESHOPT if name in view.extensions)
+    return next(found, None)
 
 
 def _stretch(data: memoryview, described: BufferView | _Compressed, name: str) -> memoryview:
@@ -74,14 +90,6 @@ def _stretch(data: memoryview, described: BufferView | _Compressed, name: str) -
     if end > len(data) or min(described.byte_offset, described.byte_length) < 0:
         raise UnreadableError(f"broken: {name} ends at byte {end} of a buffer of {len(data)}")
     return data[described.byte_offset : end]
-
-
-def _decompressed(view: _Compressed, data: memoryview) -> memoryview:
-    from shapewright.references.readers.gltf import meshopt
-
-    if not 0 <= view.count * view.byte_stride <= _MOST:
-        raise UnreadableError(f"a compressed view of {view.count} x {view.byte_stride} bytes: too large to read")
-    return meshopt.decoded(data, view.count, view.byte_stride, view.mode, view.filter)
 
 
 def _fetched(buffer: Buffer, folder: Path) -> bytes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,6 +24,10 @@ class Decoded:
 
     faces: Ints
     attributes: dict[int, NDArray[Any]]
+
+
+Streams = Callable[[int], Decoded]
+"""What the stream in a buffer view holds."""
 
 
 def decode(data: memoryview) -> Decoded:

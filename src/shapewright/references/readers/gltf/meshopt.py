@@ -26,6 +26,8 @@ _INDEX_TYPES = {2: np.uint16, 4: np.uint32}
 def decoded(source: memoryview, count: int, stride: int, mode: str, filter_name: str) -> memoryview:
     """The bytes of ``count`` elements of ``stride`` bytes each. Raises UnreadableError where the stream is invalid."""
     data = np.frombuffer(source, np.uint8)
+    if count < 0:
+        raise UnreadableError(f"broken: meshopt compression of {count} elements")
     if mode == "ATTRIBUTES" and 0 < stride <= 256 and stride % 4 == 0:
         result: NDArray[Any] = _attributes(data, count, stride)
     elif mode in ("TRIANGLES", "INDICES") and stride in _INDEX_TYPES and filter_name == "NONE":

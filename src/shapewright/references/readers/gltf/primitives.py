@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.references.errors import UnreadableError
-from shapewright.references.readers.gltf import draco
 from shapewright.references.readers.gltf.accessors import Accessors, Array, as_floats
-from shapewright.references.readers.gltf.buffers import Views
 from shapewright.references.readers.gltf.document import DRACO, Primitive, at, extension
+from shapewright.references.readers.gltf.draco import Streams
 from shapewright.references.readers.polygons import check_indices
 from shapewright.shapes import Floats, Ints
 
@@ -55,19 +54,19 @@ def has_triangles(primitive: Primitive) -> bool:
 
 
 def size(primitive: Primitive, accessors: Accessors) -> int:
-    """The corners that a primitive with triangles announces; it has at most as many triangles and vertices."""
+    """The triangles that a primitive announces at most, where it has some."""
     index = primitive.attributes[_POSITION] if primitive.indices is None else primitive.indices
     count = at(accessors.described, index, "accessor").count
     return count // 3 if primitive.mode == _TRIANGLES and primitive.indices is not None else count
 
 
-def geometry(primitive: Primitive, morph: Sequence[float], accessors: Accessors, views: Views) -> Geometry:
+def geometry(primitive: Primitive, morph: Sequence[float], accessors: Accessors, streams: Streams) -> Geometry:
     """The triangles of a primitive that has some, with each morph target taken as often as ``morph`` says.
 
     Vertices that lie before or behind all used ones are left out. Raises UnreadableError for broken data.
     """
     compressed = extension(primitive.extensions, DRACO, _Draco)
-    decoded = draco.decode(views(compressed.buffer_view)) if compressed else None
+    decoded = streams(compressed.buffer_view) if compressed else None
     encoded = compressed.attributes if compressed else {}
     position = primitive.attributes[_POSITION]
     if decoded is None:
@@ -80,6 +79,10 @@ def geometry(primitive: Primitive, morph: Sequence[float], accessors: Accessors,
         if encoded.get(_POSITION) not in decoded.attributes:
             raise UnreadableError("broken: its Draco compression has no positions")
         count, faces, spare = len(decoded.attributes[encoded[_POSITION]]), decoded.faces, 0
+        told = at(accessors.described, position, "accessor").count, size(primitive, accessors)
+        if count != told[0] or len(faces) > told[1]:
+            raise UnreadableError(f"broken: its Draco compression has {count} vertices and {len(faces)} triangles, "
+                                  f"not {told[0]} and {told[1]}")  # fmt: skip
     check_indices(faces.reshape(-1), count)
     rows, faces = _used(faces)
 

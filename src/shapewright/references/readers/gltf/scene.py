@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import msgspec
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.gltf import draco
 from shapewright.references.readers.gltf.accessors import Accessors, accessors
 from shapewright.references.readers.gltf.buffers import views
 from shapewright.references.readers.gltf.container import unpack
@@ -27,6 +28,9 @@ class _Instances(msgspec.Struct, rename="camel", frozen=True):
 _USUAL = {"TRANSLATION": (0.0, 0.0, 0.0), "ROTATION": (0.0, 0.0, 0.0, 1.0), "SCALE": (1.0, 1.0, 1.0)}
 """What of an instance counts where it is not told."""
 
+_KEPT = 4
+"""Streams of Draco that are held at once."""
+
 
 def read_gltf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
     """Vertices (V, 3) and faces (F, 3) of a glTF file's bytes, and notes on what was left out.
@@ -38,7 +42,7 @@ def read_gltf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
     container = unpack(data)
     document, unknown = parse(container.text)
     read_view = views(document, path.parent, container.binary)
-    arrays = accessors(document, read_view, len(data))
+    arrays = accessors(document, read_view)
     shown = graph(document)
     places = [(place.matrix, document.nodes[place.node]) for place in shown.shown]
     copies = [(matrix @ _instances(node, arrays), node) for matrix, node in places]
@@ -46,14 +50,22 @@ def read_gltf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
     refuse_too_many(sum(count * size(p, arrays) for p, count in primitives if has_triangles(p)))
     others = sum(count for p, count in primitives if not has_triangles(p))
 
+    @lru_cache(_KEPT)
+    def stream(view: int) -> draco.Decoded:
+        return draco.decode(read_view(view))
+
+    @cache
+    def joints_of(skin: int) -> Floats:
+        return joint_matrices(document, skin, shown.matrices, arrays)
+
     @cache
     def geometries(mesh: int, morph: tuple[float, ...]) -> list[Geometry]:
         found = at(document.meshes, mesh, "mesh").primitives
-        return [geometry(p, morph, arrays, read_view) for p in found if has_triangles(p)]
+        return [geometry(p, morph, arrays, stream) for p in found if has_triangles(p)]
 
     pieces, spare = list[Piece](), 0
     for matrices, node in copies:
-        joints = None if node.skin is None else joint_matrices(document, node.skin, shown.matrices, arrays)
+        joints = None if node.skin is None else joints_of(node.skin)
         for part in geometries(*_mesh(document, node)):
             spare += part.spare * len(matrices)
             if joints is not None and part.joints.size:

@@ -20,7 +20,10 @@ _DEEPEST = 100
 """Levels of components. Real packages have one to three."""
 _LASTING = ("model", "surface")
 """Types of objects that are there when all is made; the others support them until then."""
+_MOST = 200_000
+"""Places of objects. A small package can announce any number, since an object may be a component of many."""
 _SHOWN = 60
+_Key = tuple[str, int]
 _Models = Callable[[str], Model]
 
 
@@ -30,6 +33,13 @@ class _Place(NamedTuple):
     part: str
     number: int
     matrix: Floats
+
+
+class _Size(NamedTuple):
+    """How many triangles an object has with all its components, and in how many places they stand."""
+
+    triangles: int
+    places: int
 
 
 def read_3mf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
@@ -45,8 +55,11 @@ def read_3mf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
     places = [_target(models, item, _Place(root, 0, np.eye(4))) for item in models(root).items]
     if not places:
         raise UnreadableError("nothing is to be built: its build section is empty or missing")
-    sizes: dict[tuple[str, int], int] = {}
-    refuse_too_many(sum(_size(models, place, sizes, ()) for place in places))
+    sizes: dict[_Key, _Size] = {}
+    counts = [_size(models, place, sizes, ()) for place in places]
+    refuse_too_many(sum(count.triangles for count in counts))
+    if sum(count.places for count in counts) > _MOST:
+        raise UnreadableError(f"its objects stand in more than {_MOST:,} places")
     found = [part for place in places for part in _spread(models, place)]
     shown = [(place, thing) for place, thing in found if thing.kind in _LASTING]
     for _, thing in shown:
@@ -91,16 +104,17 @@ def _target(models: _Models, use: Use, user: _Place) -> _Place:
     return _Place(part, use.number, user.matrix @ matrix)
 
 
-def _size(models: _Models, place: _Place, sizes: dict[tuple[str, int], int], above: Sequence[tuple[str, int]]) -> int:
-    """Triangles of an object and all its components, and one more for each of these; kept in ``sizes``."""
+def _size(models: _Models, place: _Place, sizes: dict[_Key, _Size], above: Sequence[_Key]) -> _Size:
+    """How much an object and all its components are; kept in ``sizes``."""
     key = place[:2]
     if key in above or len(above) > _DEEPEST:
         deep = "is a component of itself" if key in above else f"has more than {_DEEPEST} levels of components"
         raise UnreadableError(f"broken: object {place.number} of {place.part} {deep}")
     if key not in sizes:
         thing = _find(models, place)
-        below = (_size(models, _target(models, part, place), sizes, (*above, key)) for part in thing.parts)
-        sizes[key] = 1 + len(thing.faces) + sum(below)
+        below = [_size(models, _target(models, part, place), sizes, (*above, key)) for part in thing.parts]
+        triangles = len(thing.faces) + sum(each.triangles for each in below)
+        sizes[key] = _Size(triangles, 1 + sum(each.places for each in below))
     return sizes[key]
 
 
