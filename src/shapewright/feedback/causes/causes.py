@@ -46,7 +46,7 @@ def causes(
         return cases
     misfits = _searched(misfits, predictor, crew, judge, stages)
     misfits = _compared(misfits, judge)
-    misfits = [replace(case, causes=diagnosed(space, case)) for case in misfits]
+    misfits = in_threads(lambda case: replace(case, causes=diagnosed(space, case)), misfits, settings.workers)
     lacking = [case for case in misfits if case.causes[0].kind == "missing part"]
     standing = [(case.covering.parameters, case.overlay) for case in lacking]
     leans = leaning(crew, standing, settings.workers, [case.replica.mesh for case in lacking])

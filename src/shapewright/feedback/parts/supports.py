@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from shapewright.feedback.surfaces.connection import connected
@@ -33,26 +35,30 @@ def with_splayed(replica: Mesh, label: str, factor: float, deeper: float) -> Mes
 
     Each connected piece of it leans as a whole: it stays as thick as it is.
     """
+    rest, part, aside = _taken_out(replica, label)
+    low, high = part.bounds
+    down = (high[1] - part.vertices[:, 1:2]) / max(high[1] - low[1], 1e-9)
+    leaning = Mesh(part.vertices + down * aside * [factor - 1.0, 0.0, deeper - 1.0], part.faces)
+    return concatenate([rest, leaning]) if len(rest.faces) else leaning
+
+
+@lru_cache(maxsize=16)  # a part is splayed many times
+def _taken_out(replica: Mesh, label: str) -> tuple[Mesh, Mesh, Floats]:
+    """A replica without a part, the part, and how far each of its corners' pieces stands from its middle, (V, 3)."""
     assert replica.face_labels is not None
     of_part = replica.face_labels == replica.label_names.index(label)
-    rest, part = Mesh(replica.vertices, replica.faces[~of_part]), Mesh(replica.vertices, replica.faces[of_part])
-    low, high = part.bounds
-    used = np.unique(part.faces)
-    _, welded = np.unique(np.round(part.vertices[used], 6), axis=0, return_inverse=True)
-    corner = np.zeros(len(part.vertices), dtype=np.int64)
-    corner[used] = welded.reshape(-1)
-    joined = corner[part.faces]
+    rest = Mesh(replica.vertices, replica.faces[~of_part])
+    used, faces = np.unique(replica.faces[of_part], return_inverse=True)
+    part = Mesh(replica.vertices[used], faces.reshape(-1, 3))
+    _, welded = np.unique(np.round(part.vertices, 6), axis=0, return_inverse=True)
+    corners = welded.reshape(-1)
+    joined = corners[part.faces]
     count, component = connected(int(joined.max()) + 1, joined[:, :2].ravel(), joined[:, 1:].ravel())
-    of_vertex = component[corner[used]]
-    vertices = part.vertices.copy()
+    middles = np.empty((count, 3))
     for number in range(count):
-        rows = used[of_vertex == number]
-        places = vertices[rows]
-        aside = (places.min(axis=0) + places.max(axis=0) - low - high) / 2.0
-        down = (high[1] - places[:, 1:2]) / max(high[1] - low[1], 1e-9)
-        vertices[rows] = places + down * aside * [factor - 1.0, 0.0, deeper - 1.0]
-    leaning = Mesh(vertices, part.faces)
-    return concatenate([rest, leaning]) if len(rest.faces) else leaning
+        places = part.vertices[component[corners] == number]
+        middles[number] = (places.min(axis=0) + places.max(axis=0)) / 2.0
+    return rest, part, middles[component[corners]] - part.bounds.mean(axis=0)
 
 
 def bounds_of(replica: Mesh, label: str) -> Floats | None:
