@@ -289,6 +289,7 @@ class TestReasons:
             (b"v 0 0 0\nv 1 0 0\nv 2 0 0\n", "its triangles have no area"),
             (b"v 0 0 0\nv nan 0 0\nv 2 0 0\n", "no triangle has finite corners"),
             (b"v 1e308 0 0\nv -1e308 0 0\nv 0 1 0\n", "too large to measure"),
+            (b"v 1e308 0 0\nv 1.1e308 0 0\nv 0 1 0\n", "too large to measure"),
         ],
     )
     def test_triangles_that_cannot_be_seen_or_measured(self, tmp_path, vertices, why):
@@ -302,7 +303,13 @@ class TestReasons:
         assert len(triangles(put(tmp_path, "a.obj", SQUARE + b"f 1 2 3 4\nf 4 3 2 1\n"))) == 4
 
     def test_another_kind_of_file(self, tmp_path):
-        assert ".obj" in reason(put(tmp_path, "a.fbx", b"x"))
+        assert ".obj" in reason(put(tmp_path, "a.txt", b"x"))
+        assert "FBX, which is not read: open it in Blender" in reason(put(tmp_path, "a.fbx", b"x"))
+
+    def test_a_pointer_and_a_link_of_git_annex(self, tmp_path):
+        assert "git annex get" in reason(put(tmp_path, "a.obj", b"/annex/objects/MD5-s9--00\n"))
+        (tmp_path / "b.obj").symlink_to(tmp_path / "none.obj")
+        assert "a link to a file that is not there" in reason(tmp_path / "b.obj")
 
 
 def test_every_text_lists_the_formats_that_there_are():

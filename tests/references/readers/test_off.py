@@ -72,6 +72,8 @@ def test_a_face_on_several_lines(tmp_path):
         (boxes.off("OFF\n999999999999 12 0\n"), "cut short"),
         (boxes.off().replace("3 0 1 3", "3 0 1 x"), "'x' is no number"),
         (boxes.off().replace("3 0 1 3", "3 0 1.5 3"), "no whole number"),
+        (boxes.off().replace("3 0 1 3", "-1 0 1 3"), "number of corners is no whole number"),
+        (boxes.off().replace("3 0 1 3", "nan 0 1 3"), "number of corners is no whole number"),
         (boxes.off().replace("3 0 1 3", "9 0 1 3"), "the line of face 0 has too few numbers"),
         (boxes.off().replace("0 0 3\n", "0 3\n", 1), "the line of vertex 1 has too few numbers"),
     ],

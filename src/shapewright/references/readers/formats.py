@@ -45,6 +45,7 @@ EXTENSIONS = tuple(sorted((*MESHES, *_DRAWINGS)))
 _FETCH = "where git-annex or DVC keeps the files, fetch them with `git annex get` or `dvc pull`"
 _LEAST_AREA = 1e-12
 """Share of the squared extent: a shape whose triangles all cover less shows in no picture."""
+_LARGEST = 1e307  # sums of coordinates have to stay below the largest number, 1.8e308
 _AT_ONCE = 100_000
 """Triangles whose areas are held in memory at once, 30 MB of them."""
 
@@ -102,8 +103,7 @@ def sound(vertices: Floats, faces: Ints) -> tuple[Mesh, tuple[str, ...]]:
     used[faces[finite]] = True
     whole = bool(used.all() and finite.all())
     mesh = Mesh(vertices, faces) if whole else Mesh(vertices[used], (np.cumsum(used) - 1)[faces[finite]])
-    with np.errstate(over="ignore"):
-        size = float(np.ptp(mesh.vertices, axis=0).max())
+    size = float(np.ptp(mesh.vertices, axis=0).max()) if np.abs(mesh.vertices).max() < _LARGEST else np.inf
     if not np.finfo(np.float64).tiny < size < np.inf:
         raise UnreadableError("all its triangles lie at one point" if size < 1.0 else "too large to measure")
     if not any(_seen(mesh, size, start) for start in range(0, len(mesh.faces), _AT_ONCE)):

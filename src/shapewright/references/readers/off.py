@@ -65,6 +65,8 @@ def _by_lines(table: Rows, first: int, counted: tuple[int, int], width: int) -> 
     starts, lengths = table.starts[first:-1], table.lengths[first:]
     points, loops = starts[: counted[0]], starts[counted[0] :]
     counts = table.values[loops]
+    if not np.all((counts >= 0) & (counts % 1.0 == 0.0)):
+        raise UnreadableError("broken: a face whose number of corners is no whole number")
     short = lengths < np.concatenate([np.full(len(points), width), counts + 1])
     if short.any():
         which = int(np.flatnonzero(short)[0])
@@ -120,7 +122,7 @@ def _loops(table: Rows, start: int, count: int, coloured: bool) -> list[int] | N
 
 
 def _polygons(points: Floats, corners: Floats, counts: Floats, notes: tuple[str, ...] = ()) -> Polygons:
-    if (corners % 1.0 != 0.0).any() or (counts % 1.0 != 0.0).any() or (counts < 0).any():
+    if (corners % 1.0 != 0.0).any():
         raise UnreadableError("broken: a face has a corner that is no whole number")
     if points.shape[1] == 4:  # homogeneous coordinates
         with np.errstate(divide="ignore", invalid="ignore"):
