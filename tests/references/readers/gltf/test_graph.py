@@ -39,9 +39,9 @@ def test_a_node_stands_in_the_frame_of_its_parent(tmp_path, gltf):
 
 
 def test_rotations_of_another_length_turn_alike_and_one_of_none_turns_nothing():
-    turned = trs(np.zeros((2, 3)), np.array([[0, 0, 3.0, 3.0], [0, 0, 0, 0]]), np.ones((2, 3)))
-    np.testing.assert_allclose(turned[0, :3, :3], [[0, -1, 0], [1, 0, 0], [0, 0, 1]], atol=1e-15)
-    np.testing.assert_array_equal(turned[1], np.eye(4))
+    turned = trs(np.zeros((3, 3)), np.array([[0, 0, 3.0, 3.0], [0, 0, 1e308, 1e308], [0, 0, 0, 0]]), np.ones((3, 3)))
+    np.testing.assert_allclose(turned[:2, :3, :3], [[[0, -1, 0], [1, 0, 0], [0, 0, 1]]] * 2, atol=1e-15)
+    np.testing.assert_array_equal(turned[2], np.eye(4))
 
 
 def test_a_node_that_mirrors_keeps_the_outside_outside(tmp_path, gltf):

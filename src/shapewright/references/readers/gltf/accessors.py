@@ -60,7 +60,8 @@ class Accessors:
 
 def as_floats(array: Array, normalized: bool) -> Floats:
     """Numbers as what they stand for: normalised whole numbers lie in [-1, 1], or [0, 1] where they have no sign."""
-    values = array.astype(np.float64)
+    with np.errstate(invalid="ignore"):  # some bytes are signalling NaNs
+        values = array.astype(np.float64)
     if normalized and array.dtype.kind in "iu":
         values /= np.iinfo(array.dtype).max
         np.maximum(values, -1.0, out=values)

@@ -88,8 +88,9 @@ def trs(translation: Floats, rotation: Floats, scale: Floats) -> Floats:
 
     A rotation need not be of length 1; one of length 0 turns nothing.
     """
-    length = np.linalg.norm(rotation, axis=-1, keepdims=True)
-    x, y, z, w = np.moveaxis(np.divide(rotation, length, out=np.zeros_like(rotation), where=length > 0.0), -1, 0)
+    rotation = _shortened(rotation, np.abs(rotation).max(axis=-1, keepdims=True))  # so that its square is no overflow
+    rotation = _shortened(rotation, np.linalg.norm(rotation, axis=-1, keepdims=True))
+    x, y, z, w = np.moveaxis(rotation, -1, 0)
     turn = np.stack(
         [
             np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], axis=-1),
@@ -103,6 +104,10 @@ def trs(translation: Floats, rotation: Floats, scale: Floats) -> Floats:
     result[..., :3, 3] = translation
     result[..., 3, 3] = 1.0
     return result
+
+
+def _shortened(vectors: Floats, lengths: Floats) -> Floats:
+    return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)
 
 
 def _local(nodes: Sequence[Node]) -> Floats:

@@ -137,7 +137,7 @@ def _object(element: Element, below: Sequence[Element], parts: Cut) -> Object:
             vertices = parts.rows(int(each.attributes["block"]), b"vertex", (b"x", b"y", b"z"))
         elif each.name == "triangles":
             faces = parts.rows(int(each.attributes["block"]), b"triangle", (b"v1", b"v2", b"v3"))
-    if not np.array_equal(faces, np.rint(faces)):
+    if not np.isfinite(faces).all() or not np.array_equal(faces, np.rint(faces)):
         raise UnreadableError("broken: triangles with corners that are no whole numbers")
     corners = faces.astype(np.int64)
     check_indices(corners.reshape(-1), len(vertices))
