@@ -140,7 +140,7 @@ def _of_gltf(path: Path) -> str | None:
 def _of_3mf(path: Path) -> str | None:
     """What of a package trimesh mixes up or does not tell apart."""
     notes = read(path)[1]
-    supports = [note for note in notes if "objects of the type" in note]
+    supports = [note for note in notes if "object of the type" in note]
     with zipfile.ZipFile(path) as archive:
         models = [name for name in archive.namelist() if name.lower().endswith(".model")]
     return "; ".join([*supports, *(["objects in several parts"] if len(models) > 1 else [])]) or None

@@ -59,11 +59,11 @@ class TestScenes:
         gltf.document |= {"nodes": list(self.NODES), "scenes": [{"nodes": [0]}, {"nodes": [1]}], **scene}
         corners, notes = placed(tmp_path, gltf)
         assert corners == [[x, 0, 0]]
-        assert notes == ("2 meshes not in the scene that opens, one of 2, left out",)
+        assert notes == ("2 x mesh left out: not in the scene that opens, one of 2",)
 
     def test_nodes_in_no_scene_are_noted(self, tmp_path, gltf):
         gltf.document |= {"nodes": list(self.NODES), "scenes": [{"nodes": [1]}]}
-        assert placed(tmp_path, gltf) == ([[5, 0, 0]], ("2 meshes in no scene, left out",))
+        assert placed(tmp_path, gltf) == ([[5, 0, 0]], ("2 x mesh left out: in no scene",))
 
     def test_where_there_is_none_all_nodes_are_shown_with_a_note(self, tmp_path, gltf):
         gltf.document["nodes"] = list(self.NODES)
@@ -72,9 +72,12 @@ class TestScenes:
         assert notes == ("it has no scene: all its nodes are shown",)
 
     def test_meshes_that_nothing_shows_are_a_reason(self, tmp_path, gltf):
-        assert reason(tmp_path, gltf) == "no scene shows its 1 meshes"
+        assert reason(tmp_path, gltf) == "no scene shows any of its meshes"
         gltf.document |= {"nodes": list(self.NODES), "scenes": [{}, {"nodes": [0]}]}
-        assert reason(tmp_path, gltf) == "the scene shows no mesh: 3 meshes not in the scene that opens, one of 2"
+        assert (
+            reason(tmp_path, gltf)
+            == "the scene shows no mesh; 3 x mesh left out: not in the scene that opens, one of 2"
+        )
 
     def test_a_scene_that_lists_a_node_under_another_shows_it_where_that_puts_it(self, tmp_path, gltf):
         gltf.document["nodes"] = [{"children": [1], "translation": [0, 7, 0]}, {"mesh": 0, "translation": [1, 0, 0]}]
@@ -94,11 +97,11 @@ class TestHiddenNodes:
     def test_they_and_all_below_them_are_left_out_with_a_note(self, tmp_path, gltf):
         visible = {"mesh": 0, "translation": [1, 0, 0], "extensions": {"KHR_node_visibility": {"visible": True}}}
         gltf.document["nodes"] = [self.hidden(mesh=0, children=[1]), visible, {"mesh": 0, "translation": [4, 0, 0]}]
-        assert placed(tmp_path, gltf.scene(0, 2)) == ([[4, 0, 0]], ("2 meshes hidden, left out",))
+        assert placed(tmp_path, gltf.scene(0, 2)) == ([[4, 0, 0]], ("2 x mesh left out: hidden",))
 
     def test_where_all_are_hidden_that_is_the_reason(self, tmp_path, gltf):
         gltf.document["nodes"] = [self.hidden(mesh=0)]
-        assert reason(tmp_path, gltf.scene(0)) == "the scene shows no mesh: 1 meshes hidden"
+        assert reason(tmp_path, gltf.scene(0)) == "the scene shows no mesh; 1 x mesh left out: hidden"
 
 
 class TestHostileGraphs:

@@ -67,7 +67,7 @@ def test_corners_that_are_no_whole_triangle_are_noted(tmp_path):
     path = written(tmp_path, gltf.shown(gltf.mesh({"attributes": {"POSITION": gltf.array(CUBE)}, "indices": indices})))
     mesh, notes = read(path)
     assert len(mesh.faces) == 12
-    assert notes == ("2 corners left out: they are no whole triangle",)
+    assert notes == ("2 x corner left out: no whole triangle",)
 
 
 def test_points_lines_and_meshes_without_positions_are_noted(tmp_path):
@@ -78,7 +78,7 @@ def test_points_lines_and_meshes_without_positions_are_noted(tmp_path):
     primitives += [{"attributes": {"NORMAL": position}}, {"attributes": {"POSITION": position}, "indices": indices}]
     mesh, notes = read(written(tmp_path, gltf.shown(gltf.mesh(*primitives))))
     assert len(mesh.faces) == 12
-    assert notes == ("5 primitives left out: points, lines, or without positions",)
+    assert notes == ("5 x primitive left out: points, lines, or without positions",)
 
 
 def test_a_mode_that_is_not_known_is_refused(tmp_path):

@@ -105,7 +105,7 @@ class TestOtherForms:
         )
         found, notes = read(written(tmp_path, data))
         assert found.bounds.tolist() == [[0, 0, 0], [1, 1, 1]]
-        assert notes == ("the beams of 1 objects left out",)
+        assert notes == ("1 x lattice of beams left out",)
 
     def test_beams_alone_are_the_reason(self, tmp_path):
         data = single(model(object_(2, mesh(9 * CUBE, [], LATTICE)), 'objectid="2"'))
@@ -124,7 +124,7 @@ class TestOtherForms:
     def test_another_form_beside_a_mesh_is_noted(self, tmp_path):
         other = '<x:tetrahedra xmlns:x="http://example.org/x"/>'
         _, notes = read(written(tmp_path, single(model(object_(1, mesh(more=other)), 'objectid="1"'))))
-        assert notes == ("<tetrahedra> of http://example.org/x passed over in 1 objects",)
+        assert notes == ("1 x <tetrahedra> of http://example.org/x passed over",)
 
     @pytest.mark.parametrize("kind", ["support", "solidsupport", "other"])
     def test_what_only_supports_is_left_out_with_a_note(self, tmp_path, kind):
@@ -132,7 +132,7 @@ class TestOtherForms:
         pair = object_(3, components('objectid="1"', 'objectid="2"'))
         found, notes = cubes(tmp_path, single(model(object_(1, mesh()) + support + pair, 'objectid="3"')))
         assert found == [[[0, 0, 0], [1, 1, 1]]]
-        assert notes == (f"1 objects of the type '{kind}' left out",)
+        assert notes == (f"1 x object of the type '{kind}' left out",)
 
 
 class TestHostileBuilds:

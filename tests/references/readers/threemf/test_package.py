@@ -53,7 +53,7 @@ def test_more_models_are_noted(tmp_path):
     data = archive({"_rels/.rels": relations("/3D/a.model", "/3D/b.model"), "3D/a.model": CUBE, "3D/b.model": CUBE})
     mesh, notes = read(written(tmp_path, data))
     assert len(mesh.faces) == 12
-    assert notes == ("1 more models beside the first left out",)
+    assert notes == ("1 x model beside the first left out",)
 
 
 def test_a_model_that_is_missing_is_named(tmp_path):

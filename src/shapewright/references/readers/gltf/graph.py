@@ -74,13 +74,12 @@ def graph(document: Document) -> Graph:
     hidden = sum(place.listed and place.hidden for place in meshes)
     unlisted = sum(not place.listed for place in meshes)
     where = f"not in the scene that opens, one of {len(scenes)}" if len(scenes) > 1 else "in no scene"
-    left_out = [f"{count} meshes {what}" for count, what in ((hidden, "hidden"), (unlisted, where)) if count]
+    left_out = [f"{count} x mesh left out: {what}" for count, what in ((hidden, "hidden"), (unlisted, where)) if count]
     if not shown and document.meshes:
-        raise UnreadableError(f"no scene shows its {len(document.meshes)} meshes" if not left_out else
-                              f"the scene shows no mesh: {' and '.join(left_out)}")  # fmt: skip
-    notes = [f"{what}, left out" for what in left_out]
-    notes += [] if scenes or not shown else ["it has no scene: all its nodes are shown"]
-    return Graph(matrices, shown, tuple(notes))
+        raise UnreadableError("no scene shows any of its meshes" if not left_out else
+                              f"the scene shows no mesh; {'; '.join(left_out)}")  # fmt: skip
+    scene = [] if scenes or not shown else ["it has no scene: all its nodes are shown"]
+    return Graph(matrices, shown, (*left_out, *scene))
 
 
 def trs(translation: Floats, rotation: Floats, scale: Floats) -> Floats:

@@ -75,8 +75,8 @@ def read_gltf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
     vertices, faces = join(pieces)
     if others and not len(faces):
         raise UnreadableError("no triangles, only points or lines")
-    notes = [f"{others} primitives left out: points, lines, or without positions"] if others else []
-    notes += [f"{spare} corners left out: they are no whole triangle"] if spare else []
+    notes = [f"{others} x primitive left out: points, lines, or without positions"] if others else []
+    notes += [f"{spare} x corner left out: no whole triangle"] if spare else []
     return vertices, faces, (*container.notes, *unknown, *shown.notes, *notes)
 
 

@@ -68,11 +68,11 @@ def read_3mf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
     beams = sum(thing.has_beams for _, thing in shown)
     if beams and not len(faces):
         raise UnreadableError("no triangles, only beams, which are not read")
-    notes = [f"the beams of {beams} objects left out"] if beams else []
+    notes = [f"{beams} x lattice of beams left out"] if beams else []
     kinds = Counter(thing.kind for _, thing in found if thing.kind not in _LASTING)
-    notes += [f"{count} objects of the type {kind[:_SHOWN]!r} left out" for kind, count in kinds.items()]
+    notes += [f"{count} x object of the type {kind[:_SHOWN]!r} left out" for kind, count in kinds.items()]
     others = Counter(what for _, thing in shown for what in thing.others)
-    notes += [f"{what} passed over in {count} objects" for what, count in others.items()]
+    notes += [f"{count} x {what} passed over" for what, count in others.items()]
     return vertices, faces, (*package.notes, *notes)
 
 

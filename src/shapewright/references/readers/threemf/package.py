@@ -69,7 +69,7 @@ def unpack(data: bytes) -> Package:
     if not targets and not models:
         raise UnreadableError("a ZIP archive without a 3D model in it, so no 3MF")
     more = len(set(map(part_key, targets))) - 1
-    notes = (f"{more} more models beside the first left out",) if more > 0 else ()
+    notes = (f"{more} x model beside the first left out",) if more > 0 else ()
     return Package(archive, entries, root, notes)
 
 
