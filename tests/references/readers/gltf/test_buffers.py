@@ -41,6 +41,8 @@ def reason(folder, gltf: Gltf, uri: str) -> str:
         ("a%20b.bin", "a%20b.bin"),
         ("./parts/desk.bin", "parts/desk.bin"),
         ("parts\\desk.bin", "parts/desk.bin"),
+        ("Desk.BIN", "desk.bin"),
+        ("desk.bin?version=3", "desk.bin"),
         ("%C3%BC.bin", unicodedata.normalize("NFD", "ü.bin")),
         ("u%CC%88.bin", unicodedata.normalize("NFC", "ü.bin")),
     ],
@@ -76,7 +78,9 @@ def test_a_uri_that_leads_out_of_the_folder_is_refused(tmp_path, cube, uri):
 
 def test_a_file_that_is_missing_is_named(tmp_path, cube):
     assert reason(tmp_path, cube, "oak%20desk.bin") == "it needs oak desk.bin, which is missing"
-    assert "which is missing" in reason(tmp_path, cube, "a" * 5000)
+    for length in (300, 5000):
+        assert "which is missing" in reason(tmp_path, cube, "a" * length)
+    assert "which is missing" in reason(tmp_path, cube, "none/a.bin")
     assert "which is missing" in reason(tmp_path, cube, "a%00.bin")
     assert "which is missing" in reason(tmp_path, cube, "")
 

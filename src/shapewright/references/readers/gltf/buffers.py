@@ -21,8 +21,6 @@ Views = Callable[[int], memoryview]
 
 _SHOWN = 200
 """Letters of a URI that a message shows."""
-_LONGEST = 1024
-"""Letters of a path that systems take, macOS the fewest (PATH_MAX)."""
 _MOST = 2**29
 """Bytes that the views of a file may have after decompression: five million points and ten million triangles."""
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
@@ -120,15 +118,22 @@ def _embedded(uri: str) -> bytes:
 def _located(uri: str, folder: Path) -> Path:
     """The file of a relative URI. Raises UnreadableError for one that lies elsewhere, or that is missing.
 
-    URIs are percent-encoded, but many writers leave that out, write backslashes, or compose accents another way.
+    URIs are percent-encoded, but many writers leave that out, write backslashes or another case, compose accents
+    another way, or add a query for a server.
     """
     decoded = unquote(uri)
-    names = [decoded, uri, decoded.replace("\\", "/")]
+    names = [decoded, uri, decoded.replace("\\", "/"), decoded.partition("?")[0]]
     names += [unicodedata.normalize(form, decoded) for form in ("NFC", "NFD")]
     if _SCHEME.match(uri) or any(_ELSEWHERE.match(name) for name in names):
         raise UnreadableError(f"it refers to {decoded[:_SHOWN]}, which lies outside its folder")
-    paths = [folder / name for name in names if "\0" not in name and len(name) < _LONGEST]
-    found = next((path for path in paths if path.is_file()), None)
+    path = folder / decoded
+    try:
+        found = next((folder / name for name in names if (folder / name).is_file()), None)
+        if found is None:
+            alike = [each for each in path.parent.iterdir() if each.name.casefold() == path.name.casefold()]
+            found = alike[0] if len(alike) == 1 and alike[0].is_file() else None
+    except OSError:  # a name longer than the system takes, or no such folder
+        found = None
     if found is None:
         raise UnreadableError(f"it needs {decoded[:_SHOWN]}, which is missing")
     return found
