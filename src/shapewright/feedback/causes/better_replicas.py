@@ -24,6 +24,8 @@ from shapewright.shapes import Mesh, Shape
 
 _RIVAL = 1.25  # of the best combination's cost
 NEAREST = Budget((Scan(8), Probe(2, rival=_RIVAL), *(Step(1, scatter=5),) * 12), patience=1, spread=0.15)
+AGAIN = Budget((Scan(12), Probe(3, rival=_RIVAL), *(Step(2, scatter=6),) * 12), patience=3, spread=0.3)
+"""From where the first has come to, more widely."""
 COVERING = Budget(
     (Scan(6), Probe(2, rival=_RIVAL), Step(2, scatter=4, rival=_RIVAL), *(Step(1, scatter=5),) * 10),
     patience=2,
@@ -38,6 +40,8 @@ ENOUGH = 0.9
 """Of the goal. In the pose that both share, distances are upper bounds of what is judged."""
 _UNSURE = 0.3  # probability of another class than the known one, where no predictor is known
 _NEAREST_SHARE, _COVERING_SHARE = 0.45, 0.55  # of EVALUATIONS
+AGAIN_SHARE = 0.3
+"""The same of a second search, for those that the first has brought much nearer."""
 
 
 def measured(asked: Sequence[tuple[int, Parameters]], crew: Workers, judge: Judge) -> list[Replica | None]:
