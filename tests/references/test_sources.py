@@ -85,6 +85,12 @@ class TestFolder:
         Path(path).write_bytes(b"")
         odd = find([Path(path).parent])[1]
         assert odd.name == "st\xfchl\ufffd" and odd.path == Path(path)
+        tree("st\xfchl\ufffd.obj")
+        assert [one.name for one in find([Path(path).parent])] == [
+            "a",
+            "st\xfchl\ufffd.obj",
+            "st\xfchl\ufffd.obj (2)",
+        ]
 
     def test_nothing_there(self, tree):
         folder = tree("a.fbx", "b.FBX", "x/wood.tga", "x/readme")

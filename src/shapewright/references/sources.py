@@ -83,7 +83,8 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> 
                 sources += _expand(path, default, alone=len(origins) == 1)
     except OSError as error:
         raise CollectionError(f"cannot look into {error.filename}: {error.strerror}") from error
-    names = [printable(name) for name in _unique([one.name for one in sources], [one.place for one in sources])]
+    places = [Path(printable(one.place)) for one in sources]
+    names = _unique([printable(one.name) for one in sources], places)
     named = (replace(source, name=name) for source, name in zip(sources, names, strict=True))
     return sorted(named, key=lambda source: natural_key(source.name))
 

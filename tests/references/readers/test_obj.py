@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 import boxes
@@ -62,3 +63,11 @@ def test_relative_indices_and_attributes_in_long_files(tmp_path):
     triangle = "v {0} 0 0\nv {0} 1 0\nv {0} 0 1\nf -3/1/1 -2//7 -1/2\n"
     mesh, _ = shape(tmp_path, "".join(triangle.format(i) for i in range(12_000)))
     assert (range(12_000) == mesh.triangles[:, :, 0].T).all()
+
+
+def test_polygons_of_a_long_file_behind_all_its_vertices(tmp_path):
+    squares = [f"v {i} 0 0\nv {i} 1 0\nv {i} 1 1\nv {i} 0 1\n" for i in range(6000)]
+    faces = "".join(f"f {4 * i + 1} {4 * i + 2} {4 * i + 3} {4 * i + 4}\n" for i in range(6000))
+    mesh, _ = shape(tmp_path, "".join(squares) + faces)
+    assert len(mesh.faces) == 12_000
+    assert (mesh.triangles[::2, 2, 0] == np.arange(6000)).all()

@@ -70,7 +70,9 @@ def _corners(lines: Sequence[bytes], before: Sequence[int]) -> tuple[Ints, Ints]
     if len(odd := np.flatnonzero(table.values % 1.0 != 0.0)):
         raise UnreadableError(f"broken: a face has the corner {table.values[odd[0]]:g}")
     indices = table.values.astype(np.int64)
-    relative = np.repeat(before, table.lengths) + indices  # where it is negative: before the first vertex
+    relative = (
+        np.repeat(np.array(before, dtype=np.int64), table.lengths) + indices
+    )  # where it is negative: before the first vertex
     return np.where(indices < 0, relative, indices - 1), table.lengths
 
 
