@@ -14,6 +14,7 @@ takes instead.
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
@@ -65,17 +66,28 @@ class Space(NamedTuple):
         half = np.array(self.size) / 2.0
         return np.stack([self.at - half, self.at + half])
 
-    def fill(self, make: Callable[..., Solid], along: Axis = "y", **arguments_: Any) -> Solid:
-        """The solid ``make(size, at=..., **arguments)`` that fills the space, such as ``fill(cylinder)``.
+    def fill(self, make: Callable[..., Solid], along: Axis = "y", turn: float = 0.0, **arguments_: Any) -> Solid:
+        """The solid ``make(size, **arguments)`` that fills the space, such as ``fill(cylinder)``.
+
+        make: builds about the origin, or about ``at`` where it has such a parameter.
 
         along: the axis on which what is made upright lies, such as ``fill(cylinder, along="x")`` for a rod.
+        turn: degrees about y by which what is made is turned, a multiple of 90: what faces right faces back at 90.
+        Raises ValueError that names the argument.
         """
-        axis = arguments.axis("fill", along, "along")
-        if axis == 1:
-            return make(self.size, at=self.at, **arguments_)
+        axis, quarters = arguments.axis("fill", along, "along"), arguments.number("fill", "turn", turn) / 90.0
+        if quarters % 1.0:
+            raise ValueError(f"fill: turn={turn!r} must be a multiple of 90")
         width, height, depth = self.size
-        upright = (height, width, depth) if axis == 0 else (width, depth, height)
-        return make(upright, **arguments_).rotate(90.0, "z" if axis == 0 else "x").translate(self.at)
+        upright = ((height, width, depth), (width, height, depth), (width, depth, height))[axis]
+        if axis == 1 and not quarters and "at" in inspect.signature(make).parameters:
+            return make(self.size, at=self.at, **arguments_)
+        if quarters % 2.0:
+            upright = upright[::-1]
+        made = make(upright, **arguments_)
+        made = made.rotate(turn) if quarters else made
+        made = made if axis == 1 else made.rotate(90.0, "z" if axis == 0 else "x")
+        return made.translate(self.at)
 
 
 def within(part: Bounded, size: Size = None, x: Place = 0.5, y: Place = 0.5, z: Place = 0.5) -> Space:

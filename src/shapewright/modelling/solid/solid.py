@@ -90,6 +90,15 @@ class Solid:
         factors = arguments.size("scale", factor, "factor")
         return self._about("scale", about, lambda manifold: manifold.scale(factors))
 
+    def fit(self, size: Vector, at: Vector = ORIGIN) -> Solid:
+        """The same solid, stretched along each axis to fill a size, with its middle moved to ``at``."""
+        extents, bounds = arguments.size("fit", size), self.bounds
+        low, high = bounds
+        if not (high > low).all():
+            raise ValueError("fit: the solid is empty")
+        x, y, z = (extent / reach for extent, reach in zip(extents, high - low, strict=True))
+        return self.translate(-(low + high) / 2.0).scale((x, y, z)).translate(at)
+
     def mirror(self, axis: Axis, keep: bool = False, about: Vector = ORIGIN) -> Solid:
         """The mirror image along an axis; ``keep`` unites it with the original."""
         normal = _unit("mirror", axis)
