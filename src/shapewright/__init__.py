@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from shapewright.prediction.predictor import Predictor
     from shapewright.references import Collection, CollectionError, Reference
     from shapewright.report.page import write_report
+    from shapewright.rules.rule import rule
     from shapewright.runs.changes import compare
     from shapewright.runs.iteration import Iteration
 
@@ -35,6 +36,7 @@ _ON_FIRST_USE = {
     "Iteration": "shapewright.runs.iteration",
     "Verdict": "shapewright.judging.verdict",
     "Predictor": "shapewright.prediction.predictor",
+    "rule": "shapewright.rules.rule",
     "sample": "shapewright.fitting.samples",
     "train": "shapewright.fitting.learning",
     "write_report": "shapewright.report.page",
@@ -83,6 +85,7 @@ __all__ = [
     "load_procedure",
     "outline",
     "procedure",
+    "rule",
     "sample",
     "train",
     "write_report",

@@ -1,4 +1,4 @@
-"""The command line: new, fit, explain, mark, evaluate, sample, silhouettes, report, compare, studio, demo."""
+"""The command line: new, fit, explain, mark, evaluate, sample, silhouettes, report, compare, rules, studio, demo."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from shapewright.cli.console import err, print_json
 from shapewright.cli.evaluations import evaluate
 from shapewright.cli.fits import fit
 from shapewright.cli.projects import demo, new
+from shapewright.cli.rules import rules
 from shapewright.cli.runs import compare, explain, mark, report
 from shapewright.cli.shape_files import sample, silhouettes
 from shapewright.cli.studio import studio
@@ -29,6 +30,7 @@ app = typer.Typer(
 )
 for command in (new, fit, explain, mark, evaluate, sample, silhouettes, report, compare, studio, demo):
     app.command()(command)
+app.add_typer(rules, name="rules")
 
 
 def main() -> None:

@@ -62,7 +62,7 @@ class Procedure:
         functools.update_wrapper(self, function)
         self.function = function
         self.name = function.__name__
-        self.space = _space(function, self.place)
+        self.space = space_of(function)
         self.path: Path | None = None
 
     def __call__(self, /, *args: Any, **kwargs: Any) -> Shape:
@@ -89,8 +89,7 @@ class Procedure:
     @property
     def place(self) -> Place:
         """Where the function begins."""
-        code = self.function.__code__
-        return Place(code.co_filename, code.co_firstlineno, function=self.function.__name__)
+        return _place(self.function)
 
     @property
     def digest(self) -> str:
@@ -127,7 +126,7 @@ def load_procedure(path: str | Path) -> Procedure:
     path, name = _split(path)
     found = {
         value.name: value
-        for value in vars(_execute(path)).values()
+        for value in vars(executed(path)).values()
         if isinstance(value, Procedure) and Path(value.function.__code__.co_filename) == path
     }
     if not found:
@@ -152,7 +151,8 @@ def _split(path: str | Path) -> tuple[Path, str | None]:
     return resolved, name if named else None
 
 
-def _execute(path: Path) -> ModuleType:
+def executed(path: Path) -> ModuleType:
+    """The module of an author's file, with its own imports. Raises ProcedureError, pointing at the line that fails."""
     module = ModuleType(f"shapewright_author_{path.stem}")
     module.__file__ = str(path)
     folder = str(path.parent)
@@ -204,18 +204,29 @@ def _forget_siblings(folder: Path, before: set[str]) -> None:
             del sys.modules[name]
 
 
-def _space(function: Callable[..., Any], place: Place) -> ParameterSpace:
+def space_of(function: Callable[..., Any], skip: int = 0) -> ParameterSpace:
+    """The parameter space that a function's signature spells, without its first ``skip`` parameters.
+
+    Raises ProcedureError, pointing at the function, where an annotation is no parameter's.
+    """
+    place = _place(function)
     try:
         hints = typing.get_type_hints(function, include_extras=True)
     except (NameError, TypeError) as error:
         raise ProcedureError(f"an annotation cannot be read: {error}", place) from error
-    signature = inspect.signature(function).parameters.values()
+    signature = list(inspect.signature(function).parameters.values())
     if not signature:
         raise ProcedureError(f"it has no parameters; give it some: {_KINDS}", place)
     try:
-        return ParameterSpace(tuple(_parameter(item, hints.get(item.name)) for item in signature))
+        return ParameterSpace(tuple(_parameter(item, hints.get(item.name)) for item in signature[skip:]))
     except ValueError as error:
         raise ProcedureError(str(error), place) from error
+
+
+def _place(function: Callable[..., Any]) -> Place:
+    """Where a function begins."""
+    code = function.__code__
+    return Place(code.co_filename, code.co_firstlineno, function=function.__name__)
 
 
 def _parameter(item: inspect.Parameter, hint: Any) -> Parameter:

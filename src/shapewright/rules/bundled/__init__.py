@@ -1,0 +1,1 @@
+"""Rules that come with shapewright, a module for each kind of thing."""
