@@ -204,7 +204,7 @@ def rule(name: str, example: Path, edit: Edit, arguments: argparse.Namespace) ->
                 lost += searched(procedure, batch, crew, settings)
                 tried += len(batch)
             judge = Judge.of(gathered([build for build, _ in lost]), settings)
-            made = suggestions(procedure, explained(procedure, lost, crew, judge), crew, judge) if lost else ()
+            made = suggestions(procedure, explained(procedure, lost, crew, judge), crew, judge)[0] if lost else ()
     keep(arguments.out, re.sub(r"\W+", "-", name), made)
     told = [{"kind": s.kind, "title": s.title, "gain": s.gain, "after": s.tried["after"]} for s in made]
     seconds = cpu_seconds() - before

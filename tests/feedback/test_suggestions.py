@@ -54,7 +54,9 @@ def suggested(table, shapes, vectors, monkeypatch, judge="paper"):
             replica = Replica.of(row, build, standing)
             where = residuals(reference.shape, build.shape)
             cases.append(Case.of(reference.name, reference.shape, False, replica, where))
-        return suggestions(table, cases, crew, judge, limit=3), np.array([standing.distance for standing in standings])
+        return suggestions(table, cases, crew, judge, limit=3)[0], np.array(
+            [standing.distance for standing in standings]
+        )
 
 
 def with_block(table, height, depth):

@@ -21,6 +21,7 @@ from shapewright.judging.judge import Judge
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
+from shapewright.rules.rule import Rule
 from shapewright.runs.inputs import references_of
 from shapewright.runs.iteration import Iteration
 from shapewright.shapes import Drawing, Mesh
@@ -52,6 +53,7 @@ def explain(
     cache: Path | None = None,
     suggest: bool = True,
     workers: int | None = None,
+    rules: Sequence[Rule] | None = None,
 ) -> Explanation:
     """Explain every reference of an iteration that has a replica.
 
@@ -63,6 +65,7 @@ def explain(
         cache: a folder that keeps the references' descriptors.
         suggest: whether to try what to write next, which takes longer.
         workers: processes and threads; by default as in the iteration's settings.
+        rules: the library that suggestions draw on; by default all of ``rules.library.library``.
 
     Raises:
         RunError: the references are to be loaded, but were made in memory or are not where they were.
@@ -87,9 +90,9 @@ def explain(
         stages.begin("causes", 4)
         cases = causes(cases, iteration.predictor, crew, judge, stages)
         unsolved = [case for case in cases if case.nearest.apart > 1.0]
-        changes = suggestions(procedure, unsolved, crew, judge, stages) if suggest else ()
+        changes, tried = suggestions(procedure, unsolved, crew, judge, stages, rules=rules) if suggest else ((), ())
         stages.end()
-    return _explanation(procedure, cases, changes, _failed(iteration, built), stages)
+    return replace(_explanation(procedure, cases, changes, _failed(iteration, built), stages), tried=tried)
 
 
 def _explanation(

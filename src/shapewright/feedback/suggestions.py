@@ -9,20 +9,25 @@ from typing import Any
 import numpy as np
 
 from shapewright.building import Workers
-from shapewright.comparison.light_field import RAW_SCALE
+from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
 from shapewright.feedback.case import Case
 from shapewright.feedback.ideas.hypotheses import hypotheses
 from shapewright.feedback.ideas.hypothesis import Hypothesis
 from shapewright.feedback.ideas.proposal import Misfit
 from shapewright.feedback.ideas.proposals import proposals
+from shapewright.feedback.ideas.rule_hypotheses import Study, rule_hypotheses
+from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.trials.cards import Example, card
 from shapewright.feedback.trials.selection import Change, selected
+from shapewright.feedback.trials.tried import Tried
 from shapewright.feedback.writing.edit import parameter_line
 from shapewright.feedback.writing.source import can_edit, snippet
 from shapewright.judging.judge import Judge
 from shapewright.parameters import ParameterSpace
 from shapewright.procedures import Procedure
 from shapewright.progress import Stages
+from shapewright.rules.library import library
+from shapewright.rules.rule import Rule
 from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
 
@@ -30,6 +35,8 @@ EVALUATIONS = 4_500
 """Shapes built for all trials together, about, where misfits are few: the causes of many take long enough."""
 # Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _FEWER, _LEAST = 36, 1 / 4  # shapes less for each misfit, until this part of them is left
+PAPER_GOAL = THRESHOLD * RAW_SCALE
+"""Of the raw light field distance: what hypotheses cost is in these units, whichever judge it is."""
 _STUDIED = 12  # misfits that hypotheses are made for, at most
 _HYPOTHESES = 3  # of each of these, at most
 _FEW = 0.12  # share of these, of which a proposal must be for more to be tried
@@ -40,7 +47,7 @@ _PICTURED = 3  # references in the picture of a suggestion
 
 @dataclass(frozen=True, eq=False)
 class Suggestion:
-    """A change of the author's file that makes references replicated, tried on them."""
+    """A change of the author's file that brings references nearer, tried on them."""
 
     kind: str  # "range", "new part", "part replaced", "moved part" or "part removed"
     title: str  # what changes
@@ -49,6 +56,7 @@ class Suggestion:
     source: str  # the whole changed file
     picture: bytes  # PNG with a row for each of a few references, see ``cards.card``
     references: tuple[str, ...]  # names of those that become replicated
+    nearer: tuple[str, ...] = ()  # names of others that come much nearer
     tried: Mapping[str, Any] = field(default_factory=dict)  # what was measured
 
     @property
@@ -64,17 +72,20 @@ def suggestions(
     judge: Judge,
     stages: Stages | None = None,
     limit: int = 5,
-) -> tuple[Suggestion, ...]:
-    """What would make most of the cases replicated, the largest gain first; empty if nothing would.
+    rules: Sequence[Rule] | None = None,
+) -> tuple[tuple[Suggestion, ...], tuple[Tried, ...]]:
+    """What would bring most of the cases nearer, the most per line of code first; and all that was tried on them.
 
     cases: those that no parameters of the procedure replicate, as a longer search has shown. crew: builds shapes of the
-    procedure. limit: of the number of suggestions. The same seed gives the same suggestions.
+    procedure. limit: of the number of suggestions. rules: the library; by default all of it, and those of the files
+    beside the procedure. The same seed gives the same suggestions.
     """
     if not cases or not can_edit(procedure.source, procedure.name):
-        return ()
+        return (), ()
     stages = stages or Stages(None)
     stages.begin("hypotheses", 1)
-    misfits = _misfits(cases, judge)
+    known_rules = library(procedure.path.parent if procedure.path else None) if rules is None else rules
+    misfits = _misfits(cases, judge, known_rules)
     always = _always(procedure.space, crew, judge.settings.seed)
     ideas = proposals(procedure.source, procedure.name, procedure.space, misfits, always)
     stages.begin("trials", 1)
@@ -82,28 +93,46 @@ def suggestions(
     # A part is only ever proposed for misfits that were studied.
     worthy = [idea for idea in ideas if len(idea.starts) > _FEW * min(len(misfits), _STUDIED)]
     evaluations = max(EVALUATIONS - _FEWER * len(misfits), int(_LEAST * EVALUATIONS))
-    changes = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
+    changes, tried = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
     by_row = {case.row: case for case in cases}
-    return tuple(_suggestion(change, procedure, by_row, judge) for change in changes)
+    return tuple(_suggestion(change, procedure, by_row, judge) for change in changes), tuple(tried)
 
 
-def _misfits(cases: Sequence[Case], judge: Judge) -> list[Misfit]:
+def _misfits(cases: Sequence[Case], judge: Judge, rules: Sequence[Rule]) -> list[Misfit]:
     """All cases, _STUDIED of them, spread over the collection, with hypotheses."""
     count = min(_STUDIED, len(cases))
-    studied = {cases[i].row for i in np.linspace(0, len(cases) - 1, count).astype(int)}
-
-    goal = judge.settings.threshold * RAW_SCALE  # hypotheses are priced by light fields, whichever judge it is
+    studied = [cases[i] for i in sorted({int(i) for i in np.linspace(0, len(cases) - 1, count)})]
+    bases = dict(
+        zip(studied, in_threads(lambda case: _base(case, judge), studied, judge.settings.workers), strict=True)
+    )
+    shared = rule_hypotheses(list(bases.values()), rules, judge.settings.workers or 1)
+    of_rules = {case.row: several for case, several in zip(studied, shared, strict=True)}
 
     def study(case: Case) -> Misfit:
         guesses: list[Hypothesis] = []
-        if case.row in studied:
-            cost, replica = judge.targets[case.row].cost, case.covering.mesh
-            guesses = hypotheses(
-                case.covering_residuals, case.reference, replica, lambda meshes: [cost(mesh) for mesh in meshes]
-            )
-        return Misfit(case.covering, case.nearest, case.outside, tuple(guesses[:_HYPOTHESES]), goal)
+        if base := bases.get(case):
+            guesses = hypotheses(base.differences, case.reference, base.replica, base.costs)[:_HYPOTHESES]
+        base_replica = case.nearest if judge.settings.judge == "fidelity" else case.covering
+        return Misfit(base_replica, case.nearest, case.outside, (*guesses, *of_rules.get(case.row, ())), PAPER_GOAL)
 
     return in_threads(study, cases, judge.settings.workers)
+
+
+def _base(case: Case, judge: Judge) -> Study:
+    """What hypotheses change: by the paper's judge the replica whose surface has most in common, else the nearest.
+
+    They are priced by what a search makes small, in units of the light field.
+    """
+    target = judge.targets[case.row]
+    if judge.settings.judge == "paper":
+        return Study(case.covering.mesh, case.covering_residuals, lambda meshes: [target.cost(mesh) for mesh in meshes])
+    objective, unit = target.objective(), PAPER_GOAL / judge.goal
+
+    def costs(meshes: Sequence[Mesh]) -> list[float]:
+        rows = [objective.residual(mesh) if objective else None for mesh in meshes]
+        return [np.inf if row is None else unit * float(np.abs(row).sum()) for row in rows]
+
+    return Study(case.nearest.mesh, residuals(case.residuals.reference, case.nearest.mesh), costs)
 
 
 def _always(space: ParameterSpace, crew: Workers, seed: int) -> list[str]:
@@ -117,33 +146,38 @@ def _suggestion(change: Change, procedure: Procedure, cases: Mapping[int, Case],
     """cases: all, by row."""
     idea, outcome = change.proposal, change.outcome
     rows = sorted(outcome.replicated, key=lambda row: outcome.apart(row) - cases[row].nearest.apart)
+    others = [row for row in change.helped if row not in rows]
+    others.sort(key=lambda row: outcome.apart(row) - cases[row].nearest.apart)
     names = judge.references.names
     examples = []
-    for row in rows[:_PICTURED]:
+    for row in [*rows, *others][:_PICTURED]:
         marked = [np.zeros((0, 3)), *(region.points for region in cases[row].covering_residuals.of("unexplained"))]
-        before, after = cases[row].covering.mesh, outcome.replicas[row].mesh
+        before, after = cases[row].nearest.mesh, outcome.replicas[row].mesh
         examples.append(Example(cases[row].reference, np.concatenate(marked), before, after))
     return Suggestion(
         idea.kind,
         idea.title,
-        _text(change, procedure, len(rows), len(cases)),
+        _text(change, procedure, len(rows), len(others), len(cases)),
         _snippet(change, procedure),
         change.source,
         card(examples),
         tuple(names[row] for row in sorted(rows)),
+        tuple(names[row] for row in sorted(others)),
         {
             "tried": len(outcome.counted),
             "replicated": len(rows),
+            "nearer": len(others),
             "lost": 0,
-            "before": float(np.mean([cases[row].nearest.distance for row in rows])),
-            "after": float(np.mean([outcome.replicas[row].distance for row in rows])),
-            "parameters": {names[row]: outcome.parameters[row] for row in rows},
+            "before": float(np.mean([cases[row].nearest.distance for row in change.helped])),
+            "after": float(np.mean([outcome.replicas[row].distance for row in change.helped])),
+            "parameters": {names[row]: outcome.parameters[row] for row in change.helped},
         },
     )
 
 
-def _text(change: Change, procedure: Procedure, gain: int, misfits: int) -> str:
+def _text(change: Change, procedure: Procedure, gain: int, nearer: int, misfits: int) -> str:
     would = f"{gain} of {misfits} misfits would become replicated"
+    would += f", {nearer} more would come nearer" if nearer else ""
     if change.proposal.rule is None:
         changes = []
         for name, (low, high, _) in change.ranges.items():

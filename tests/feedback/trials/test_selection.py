@@ -61,12 +61,13 @@ def test_what_brings_something_is_shown_with_the_ranges_that_are_needed(post):
     assert all(15_000 * misfit.nearest.distance > judge.goal for misfit in misfits)
     ideas = [longer("depth", 0.9, (0, 1)), longer("height", 4.0, (0,))]
     known = [misfits[0].nearest]
-    shown = selected(post, ideas, misfits, judge, known, 400, 3)
+    shown, tried = selected(post, ideas, misfits, judge, known, 400, 3)
     assert [each.proposal.title for each in shown] == ["A wider Range of height"]
+    assert {one.title for one in tried} == {"A wider Range of height"} and tried[0].nearer == 2 and tried[0].best <= 1.0
     (height,) = shown
     assert height.outcome.replicated == (0, 1) and 2.0 < height.ranges["height"][1] < 4.0
     assert height.source == height.proposal.write(height.ranges)
-    again = selected(post, ideas, misfits, judge, known, 400, 3)
+    again, _ = selected(post, ideas, misfits, judge, known, 400, 3)
     assert again[0].outcome.parameters == height.outcome.parameters and again[0].source == height.source
 
 
@@ -75,16 +76,16 @@ def test_parameters_known_with_longer_ranges_need_no_search(post):
     (plain,) = misfits
     outside = Replica(0, {"height": 3.0, "depth": 0.1}, box((0.5, 3.0, 0.1)).mesh(), 0.0, apart=0.0)
     known = Misfit(plain.covering, plain.nearest, outside, goal=judge.goal)
-    (shown,) = selected(post, [longer("height", 4.0, (0,))], [known], judge, [], 1, 3)
+    (shown,), _ = selected(post, [longer("height", 4.0, (0,))], [known], judge, [], 1, 3)
     assert shown.outcome.parameters[0] == {"height": 3.0, "depth": 0.1} and shown.outcome.apart(0) < 0.1
-    assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, [], 1, 3) == []
+    assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, [], 1, 3)[0] == []
 
 
 def test_a_change_of_what_was_there_is_not_shown(post):
     misfits, judge = tall(post, (3.0,))
     known = [Replica(0, {"height": 0.5, "depth": 0.1}, box((0.5, 0.7, 0.1)).mesh(), 0.2)]
-    assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, known, 400, 3) == []
-    assert selected(post, [longer("breadth", 3.0, (0,))], misfits, judge, [], 400, 3) == []
+    assert selected(post, [longer("height", 4.0, (0,))], misfits, judge, known, 400, 3)[0] == []
+    assert selected(post, [longer("breadth", 3.0, (0,))], misfits, judge, [], 400, 3)[0] == []
 
 
 def test_the_way_to_a_replicated_shape():

@@ -26,7 +26,9 @@ def narrowed(proposal: Proposal, space: ParameterSpace, values: Sequence[Paramet
     if proposal.rule is None:
         return {name: _kept_short(space[name], [float(v[name]) for v in values], wide[name]) for name in wide}
     return {
-        q.name: _around(np.array([float(v[q.name]) for v in values]), q.whole, wide[q.name])
+        q.name: wide[q.name]
+        if q.limits
+        else _around(np.array([float(v[q.name]) for v in values]), q.whole, wide[q.name])
         for q in proposal.rule.quantities
     }
 

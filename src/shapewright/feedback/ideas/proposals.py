@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from shapewright.feedback.ideas.hypothesis import ALL_OTHERS, Hypothesis
 from shapewright.feedback.ideas.needed_ranges import generous
-from shapewright.feedback.ideas.proposal import Misfit, Proposal, Ranges, as_value, listed
+from shapewright.feedback.ideas.proposal import Interval, Misfit, Proposal, Ranges, as_value, listed
 from shapewright.feedback.ideas.wider_ranges import wider_ranges
+from shapewright.feedback.parts.lack import overlap
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import WHOLE, Frames
 from shapewright.feedback.parts.supports import bounds_of
 from shapewright.feedback.writing.edit import with_rule
-from shapewright.feedback.writing.piece_code import noun
+from shapewright.feedback.writing.piece_code import Quantity, noun
 from shapewright.feedback.writing.rule_code import RuleDraft, addition, drawing_in, removal, splaying
 from shapewright.feedback.writing.source import free_name
 from shapewright.parameters import Parameters, ParameterSpace
@@ -30,6 +32,7 @@ _MOST_PIECES = 3  # of a rule, that are commonest; one more where hypotheses agr
 _COMMON, _WHOLES = 5, 3  # forms of pieces, and whole sets of pieces, that are looked at
 _SHARED = 0.25  # share of the hypotheses that a piece is in, from which on a rule makes it
 _FILLS = 0.1  # of a removed part's largest extent: how near the sides of a piece are that takes its place
+_FILLED = 0.3  # intersection over union of a rule's piece and a part, from which on it takes the part's box
 _INSET, _SPLAY = (0.3, 1.1), (0.6, 2.5)  # Ranges of factors to begin with
 
 
@@ -110,14 +113,36 @@ def _with_pieces(
         where = f" in place of the {listed(removed)}" if removed else ""
         title = f"{nouns[0].upper()}{nouns[1:]}{where}{', the rest drawn in' if drawn_in else ''}"
         inset = [h.scale[0] for _, h in members] if drawn_in else None
+        several = [_in_place(pieces, removed, members) for pieces in several]
         names = _labels(several, removed, members)
         rule = addition(several, frames, removed, inset, names, partial(free_name, source, procedure), f"{title}.")
-        ranges = {q.name: generous(np.array(q.values), q.whole) for q in rule.quantities}
+        ranges = {q.name: _range(q) for q in rule.quantities}
         kind = "part replaced" if removed else "new part"
         yield _proposal(kind, title, source, procedure, rule, ranges, members, len(chosen))
 
 
+def _range(quantity: Quantity) -> Interval:
+    """A Range to begin with: that of the library's rule, or a generous one around what the misfits need."""
+    values = np.array(quantity.values)
+    return (*quantity.limits, float(np.median(values))) if quantity.limits else generous(values, quantity.whole)
+
+
+def _in_place(pieces: Sequence[Piece], removed: Sequence[str], members: Wanted) -> list[Piece]:
+    """The pieces of a library's rule as large as the part in whose place they come, where most overlap with it much.
+
+    The author's own parameters say then how large they are.
+    """
+    boxes = [frames_of(m.replica, removed[:1]).get(removed[0]) if removed else None for m, _ in members]
+    if not pieces[0].rule or any(pieces[0].mirrored) or any(box is None for box in boxes):
+        return list(pieces)
+    placed = [replace(p, low=box[0], high=box[1]) for p, box in zip(pieces, boxes, strict=True) if box is not None]
+    shared = [overlap(piece, other) for piece, other in zip(pieces, placed, strict=True)]
+    return placed if float(np.median(shared)) > _FILLED else list(pieces)
+
+
 def _form(piece: Piece) -> tuple[object, ...]:
+    if piece.rule:
+        return piece.key
     kind = next((word for word in ("slats", "spokes") if word in piece.kind), "")
     return (piece.kind if kind == "slats" else kind, piece.mirrored, () if kind == "spokes" else piece.thin)
 
@@ -164,7 +189,8 @@ def _proposal(
     worth = 0.0
     for i, (misfit, hypothesis) in enumerate(members):
         starts[misfit.row] = {q.name: as_value(q.whole, q.values[i]) for q in rule.quantities}
-        worth += float(np.clip(1.5 - hypothesis.cost / misfit.goal, 0.0, 1.0))
+        saved = 1.0 - hypothesis.cost / hypothesis.before
+        worth += float(np.clip(max(1.5 - hypothesis.cost / misfit.goal, saved), 0.0, 1.0))
 
     def write(chosen: Ranges) -> str:
         return with_rule(source, procedure, rule.spelled(chosen))

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import product
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
-from shapewright.modelling.solids import Axis, Solid, box, cone, cylinder, slats, sphere
+from shapewright.modelling.arguments import point
+from shapewright.modelling.solids import Axis, Solid, Space, box, cone, cylinder, slats, sphere
+from shapewright.rules.rule import Rule
 from shapewright.shapes import Floats, Mesh
 
 PlainKind = Literal["box", "cylinder", "rod x", "rod z", "frustum", "foot", "sphere"]
-Kind = PlainKind | Literal["slats x", "slats y", "slats z", "spokes", "sloping spokes"]
+Kind = PlainKind | Literal["slats x", "slats y", "slats z", "spokes", "sloping spokes", "rule"]
 WIDER_TOP, WIDER_FOOT = 0.55, 0.55
 """Part of the width that the narrow end of a frustum or foot has."""
 _PLAIN: dict[Kind, Callable[[], Solid]] = {
@@ -48,7 +50,9 @@ class Piece:
     count: int = 1  # of the slats or spokes
     gap: float = 0.0  # between slats, as a part of the whole
     breadth: float = 0.0  # of spokes, as a part of the whole
-    turn: float = 0.0  # degrees from x to a spoke
+    turn: float = 0.0  # degrees from x to a spoke; by which a rule is turned about y
+    rule: Rule | None = None  # of the library, that makes the piece; its kind is "rule"
+    arguments: Mapping[str, Any] = field(default_factory=dict)  # of the rule
 
     @property
     def size(self) -> Floats:
@@ -66,11 +70,15 @@ class Piece:
     @property
     def key(self) -> tuple[object, ...]:
         """Equal for pieces that are made alike: for the same purpose, very likely."""
+        if self.rule:
+            return (self.rule.name, self.turn, self.mirrored)
         return (self.kind, self.mirrored, self.thin)
 
     @property
     def noun(self) -> str:
         """What an author might call it."""
+        if self.rule:
+            return self.rule.noun
         if self.kind in SLATS:
             return "rails" if self.kind == "slats y" else "spindles"
         return "spokes" if self.kind in SPOKES else _noun(self) + "s" * any(self.mirrored)
@@ -89,14 +97,19 @@ class Piece:
 
     def mesh(self) -> Mesh:
         """Its surface, all copies of it."""
+        if self.rule:
+            space = Space(point(self.size), point(self.centre))
+            return self._with_copies(space.fill(self.rule, turn=self.turn, **self.arguments)).mesh()
         unit = _unit(self.kind, self.count, round(self.gap, 3), round(self.breadth, 2), self.turn)
-        solid = unit.scale(tuple(self.size)).translate(tuple(self.centre))
+        return self._with_copies(unit.scale(tuple(self.size)).translate(tuple(self.centre))).mesh()
+
+    def _with_copies(self, solid: Solid) -> Solid:
         x, z = self.middle
         if self.mirrored[0]:
             solid = solid.mirror("x", keep=True, about=(x, 0.0, 0.0))
         if self.mirrored[1]:
             solid = solid.mirror("z", keep=True, about=(0.0, 0.0, z))
-        return solid.mesh()
+        return solid
 
 
 @lru_cache(maxsize=256)

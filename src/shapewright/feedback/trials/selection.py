@@ -6,6 +6,7 @@ leading proposals, and to the references that are near.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -24,10 +25,12 @@ from shapewright.feedback.trials.attempt import (
     builds_the_same,
     nearest_starts,
     outcome_of,
+    stays_sound,
     turned_to,
     with_borrowed_choices,
 )
 from shapewright.feedback.trials.outcome import PROMISING, Outcome
+from shapewright.feedback.trials.tried import Tried
 from shapewright.feedback.writing.source import EditError
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
@@ -45,6 +48,10 @@ _BORROWED = 0.15  # of these, for the choices that suit others
 _LITTLE = 0.05  # of the most that is promised, that is not worth a trial
 _LEAST = 24  # evaluations that a search is worth beginning with
 _FAR = 3.0  # what lies further apart is not searched for with longer Ranges, which may change much
+_NEARER = 0.25  # of the way to a replicated replica, that a reference has to come to be helped
+_LEAST_VALUE = 0.6  # of a change to be shown: one reference nearly all the way, or some a part of it
+_READING = 12  # lines of code that reading any suggestion costs as much as
+_LOST = 0.1  # further apart with the final Ranges: worth another search
 _CLOSE = 0.4  # how little longer Ranges should leave apart, so that they are long enough
 
 
@@ -57,11 +64,18 @@ class Change:
     source: str  # the changed source, with these Ranges
     outcome: Outcome  # what it gives for the references
 
+    helped: tuple[int, ...]  # rows of the references that come much nearer, replicated ones with them
+    value: float  # how many references it carries all the way, where two halves count as one
+
     @property
-    def value(self) -> float:
-        """The references that become replicated; a perfect replica counts half as much again as one that just is."""
-        outcome = self.outcome
-        return sum(1.5 - 0.5 * outcome.apart(row) for row in outcome.replicated)
+    def worth(self) -> float:
+        """The value per line of code that is to read."""
+        return self.value / (_READING + self.lines)
+
+    @property
+    def lines(self) -> int:
+        """Of code that are added, about."""
+        return self.proposal.rule.lines if self.proposal.rule else 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,8 +105,8 @@ def selected(
     known: Sequence[Replica],
     evaluations: int,
     limit: int,
-) -> list[Change]:
-    """The proposals that make references replicated, the largest gain first, simpler first on a tie.
+) -> tuple[list[Change], list[Tried]]:
+    """The proposals that bring references nearer, the most worth reading first; and all that were searched with.
 
     ideas: the likeliest first. known: replicas that no change may alter. evaluations: shapes built for searches, about.
     limit: of the number of changes. None only repeats part of what another does.
@@ -107,17 +121,30 @@ def selected(
         share = int(_LEADING_SHARE * evaluations / min(_LEADING, max(len(leading), 1)))
         leading[:_LEADING] = [_briefly_searched(trials, prospect, share) for prospect in leading[:_LEADING]]
         leading = sorted(leading, key=lambda prospect: -prospect.promise)
-        changes, left = [], (1.0 - _LEADING_SHARE) * evaluations
+        changes: list[Change] = []
+        tried: list[Tried] = []
+        left = (1.0 - _LEADING_SHARE) * evaluations
         for prospect in leading[:_CONFIRMED]:
             if prospect.promise <= _LITTLE * leading[0].promise:
                 break
-            allowed, idea = int(_CONFIRMED_SHARE * left), prospect.proposal
+            allowed, idea, begun = int(_CONFIRMED_SHARE * left), prospect.proposal, time.monotonic()
             left -= allowed
             outcome = _outcome_for_all(trials, prospect, allowed)
-            if outcome.replicated:
-                values = [outcome.parameters[row] for row in outcome.replicated]
-                changes.append(Change(idea, narrowed(idea, procedure.space, values), "", outcome))
-        return _worth_showing(trials, changes, limit)
+            changes += _change(trials, idea, "", outcome)
+            nearer = [m.row for m in misfits if outcome.apart(m.row) < m.nearest.apart]
+            best = min((outcome.apart(row) for row in nearer), default=np.inf)
+            tried.append(Tried(idea.title, idea.kind, len(nearer), best, time.monotonic() - begun))
+        return _worth_showing(trials, changes, limit), sorted(tried, key=lambda one: one.best)
+
+
+def _change(trials: _Trials, idea: Proposal, source: str, outcome: Outcome) -> Iterator[Change]:
+    """The change where it brings enough, with the Ranges that the references need which it brings nearer."""
+    ways = {m.row: _way(m, outcome) for m in trials.misfits}
+    helped = tuple(row for row, way in ways.items() if way >= _NEARER)
+    value = sum(ways[row] + 0.5 * max(1.0 - outcome.apart(row), 0.0) for row in helped)
+    if value >= _LEAST_VALUE:
+        values = [outcome.parameters[row] for row in helped]
+        yield Change(idea, narrowed(idea, trials.space, values), source, outcome, helped, value)
 
 
 def _built(trials: _Trials, idea: Proposal, known: Sequence[Replica]) -> Iterator[_Prospect]:
@@ -231,31 +258,33 @@ def _worth_showing(trials: _Trials, changes: Sequence[Change], limit: int) -> li
 
 
 def _ordered(changes: Sequence[Change]) -> list[Change]:
-    return sorted(changes, key=lambda change: (-change.value, len(change.ranges)))
+    return sorted(changes, key=lambda change: (-change.worth, len(change.ranges)))
 
 
 def _repeats(one: Change, other: Change) -> bool:
     same = other.proposal.kind == one.proposal.kind
-    return same and set(one.outcome.replicated) <= set(other.outcome.replicated)
+    return same and set(one.helped) <= set(other.helped)
 
 
 def _simpler(one: Change, other: Change) -> bool:
     """Whether one makes fewer Ranges longer than the other, for as many references."""
     fewer = bool(one.proposal.ends) and set(one.proposal.ends) < set(other.proposal.ends)
-    return fewer and len(one.outcome.replicated) >= len(other.outcome.replicated)
+    return fewer and len(one.helped) >= len(other.helped)
 
 
 def _final(trials: _Trials, change: Change) -> Iterator[Change]:
-    """The same with its final source, and what that really gives; nothing if that is nothing."""
+    """The same with its final source, and what that really gives; nothing if that is nothing, or unsound."""
     idea, judge = change.proposal, trials.judge
-    made = {row: change.outcome.parameters[row] for row in change.outcome.replicated}
+    made = {row: change.outcome.parameters[row] for row in change.helped}
     try:
         source = idea.write(change.ranges)
         with turned_to(source, trials.crew) as crew:
+            if not stays_sound(crew, trials.space, idea.flag, judge.settings.seed):
+                return
             outcome = outcome_of(crew, made, judge, None)
-            lost = {row: made[row] for row in made if row not in outcome.replicated}
+            lost = {row: made[row] for row in made if outcome.apart(row) > change.outcome.apart(row) + _LOST}
             outcome = outcome.joined(outcome_of(crew, lost, judge, LONG, sure=idea.flag).using(idea.uses))
     except (EditError, ProcedureError):
         return
-    if outcome.replicated:
-        yield replace(change, source=source, outcome=outcome)
+    for final in _change(trials, idea, source, outcome):
+        yield replace(final, ranges=change.ranges)

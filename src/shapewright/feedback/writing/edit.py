@@ -12,6 +12,7 @@ from libcst.metadata import MetadataWrapper, PositionProvider
 
 from shapewright.feedback.writing.source import EditError, code, function_of, imports_in, names_in, parsed, text_of
 
+_SHAPE = "shape"  # what the whole shape is called in changed returns
 _LINE = 120  # characters: what this project's style allows (pyproject.toml)
 
 
@@ -74,7 +75,8 @@ def with_rule(source: str, procedure: str, rule: NewRule) -> str:
     changed = function.with_changes(params=_signature(function, rule.parameters), body=function.body.visit(returns))
     if not returns.found:
         raise EditError(f"{procedure} returns nothing")
-    added = list(cst.parse_module(rule.function.strip()).body)  # with the indents and line ends of the author's file
+    there = {code(statement) for statement in module.body}  # a rule of the library may be there from an earlier change
+    added = [statement for statement in cst.parse_module(rule.function.strip()).body if code(statement) not in there]
     if added:
         added[0] = added[0].with_changes(leading_lines=[cst.EmptyLine(indent=False)] * 2)
     place = module.body.index(function)
@@ -159,16 +161,9 @@ class _Returns(cst.CSTTransformer):
 
     def _statements(self, line: cst.SimpleStatementLine, value: cst.BaseExpression) -> list[Any]:
         """The statements that return what the rule makes of a value."""
-        name = "shape"
-        match value:  # a name; or changed(name, ...) if flag else name, as earlier changes leave it
-            case (
-                cst.Name(value=kept)
-                | cst.IfExp(orelse=cst.Name(value=kept))
-                | cst.Call(args=[cst.Arg(value=cst.Name(value=kept), keyword=None, star=""), *_])
-            ):
-                name = kept
+        name = _SHAPE  # never another name of the author's: what it stands for stays as it is
         statements: list[Any] = list(cst.parse_module(self._text(name)).body)
-        if not isinstance(value, cst.Name):
+        if not (isinstance(value, cst.Name) and value.value == name):
             return [line.with_changes(body=[cst.Assign([cst.AssignTarget(cst.Name(name))], value)]), *statements]
         statements[0] = statements[0].with_changes(leading_lines=line.leading_lines)
         statements[-1] = statements[-1].with_changes(trailing_whitespace=line.trailing_whitespace)

@@ -12,6 +12,7 @@ from shapewright.feedback.parts.pieces import SLOPE, SPOKES, WIDER_FOOT, WIDER_T
 from shapewright.feedback.parts.relations import NEW, WHOLE, Along, Frames, equal_sizes
 from shapewright.feedback.writing.edit import NewParameter
 from shapewright.modelling.arguments import SIDES, Side
+from shapewright.parameters import Integer, Scalar
 
 LINE = 116  # characters: 120, the style of this project (pyproject.toml), less an indent of four
 _SIZES = ("width", "height", "depth")
@@ -36,6 +37,7 @@ class Quantity:
     name: str  # of the new parameter
     values: tuple[float, ...]  # what each misfit needs
     whole: bool = False  # whether it is an integer
+    limits: tuple[float, float] | None = None  # of its Range, where a rule of the library says them
 
     def parameter(self, low: float, high: float, default: float, when: str | None) -> NewParameter:
         condition = f", when=lambda p: p.{when}" if when else ""
@@ -62,6 +64,9 @@ def piece_lines(
     if kind in SPOKES or kind.startswith("slats"):
         asked.append(Quantity(count, tuple(float(piece.count) for piece in several), whole=True))
     filling = _FILLED.get(kind, "")
+    if kind == "rule":
+        filling, more = _of_rule(several, name)
+        asked += more
     if kind.startswith("slats"):
         filling = _slats(several, kind[-1], sizes["xyz".index(kind[-1])], count)
     copies = ""
@@ -79,9 +84,17 @@ def piece_lines(
     if kind in SPOKES:
         lines += [f"space = {space}", *_spokes(kind, sizes[0] == sizes[2] != "None", name, _turn(several))]
         made = "around.translate(space.at)"
-    elif len(f"{name} = {made}{ending}") > LINE:
+    elif len(f"{variable(several[0], name)} = {made}{ending}") > LINE:
         lines, made = [*lines, f"space = {space}"], f"space.fill({filling})"
-    return [*lines, f"{name} = {made}{ending}"], asked
+    made_by = f"{variable(several[0], name)} = {made}"
+    if len(made_by + ending) > LINE:  # a rule of many numbers
+        return [*lines, made_by, f"{variable(several[0], name)} = {variable(several[0], name)}{ending}"], asked
+    return [*lines, made_by + ending], asked
+
+
+def variable(piece: Piece, name: str) -> str:
+    """What a piece is called in the code; a rule of the library is a function of the same name."""
+    return f"{name}_part" if piece.rule else name
 
 
 def kit_functions(lines: Sequence[str]) -> tuple[str, ...]:
@@ -186,6 +199,24 @@ def _spokes(kind: Kind, is_round: bool, name: str, turn: str) -> list[str]:
     stretch = "" if is_round else ".scale((1, 1, space.depth / space.width))"
     turned = "" if turn == "0" else f".rotate({turn.format(count=f'{name}_count')})"
     return [*lines, f"around = spoke{turned}.polar_array({name}_count){stretch}"]
+
+
+def _of_rule(several: Sequence[Piece], name: str) -> tuple[str, list[Quantity]]:
+    """What fills a space with a rule of the library, and its numbers; of choices those that most pieces have."""
+    rule = several[0].rule
+    assert rule
+    filling, asked = rule.name, []
+    if several[0].turn:
+        filling += f", turn={number(several[0].turn)}"
+    for parameter in rule.space:
+        values = [piece.arguments[parameter.name] for piece in several]
+        if isinstance(parameter, Scalar | Integer):
+            limits, whole = (parameter.low, parameter.high), isinstance(parameter, Integer)
+            asked.append(Quantity(f"{name}_{parameter.name}", tuple(map(float, values)), whole, limits))
+            filling += f", {parameter.name}={asked[-1].name}"
+        elif (usual := max(dict.fromkeys(values), key=values.count)) != parameter.default:
+            filling += f", {parameter.name}={usual!r}"
+    return filling, asked
 
 
 def _turn(several: Sequence[Piece]) -> str:

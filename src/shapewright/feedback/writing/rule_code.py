@@ -15,7 +15,9 @@ import numpy as np
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import INNER, NEW, WHOLE, Frames, best_frame, inside_of, made_bounds
 from shapewright.feedback.writing.edit import NewParameter, NewRule
-from shapewright.feedback.writing.piece_code import LINE, Quantity, kit_functions, noun, piece_lines, quoted
+from shapewright.feedback.writing.piece_code import LINE, Quantity, kit_functions, noun, piece_lines, quoted, variable
+from shapewright.feedback.writing.rule_text import rule_text
+from shapewright.rules.rule import Rule
 
 
 @dataclass(frozen=True)
@@ -28,16 +30,25 @@ class RuleDraft:
     call: str  # an expression for the changed shape, in which ``{shape}`` stands for the shape before
     quantities: tuple[Quantity, ...]  # what becomes a parameter
     imports: tuple[str, ...]  # the functions of the kit that it needs
+    rules: tuple[Rule, ...] = ()  # of the library, that it needs
+
+    @property
+    def lines(self) -> int:
+        """Of code that it adds: of its functions, and one for each parameter."""
+        texts = [*(rule_text(rule).functions for rule in self.rules), self.function]
+        return sum(text.count("\n") + 1 for text in texts if text) + len(self.quantities) + 1
 
     def spelled(self, ranges: Mapping[str, tuple[float, float, float]]) -> NewRule:
         """The rule with these ranges (low, high, default) of its quantities."""
         parameters = [NewParameter(self.flag, "bool", str(not self.function))] if self.flag else []
         parameters += [q.parameter(*ranges[q.name], self.flag) for q in self.quantities]
-        imports = {"shapewright.modelling.solids": self.imports} if self.imports else {}
+        texts = [rule_text(rule) for rule in self.rules]
+        imports = _merged([{"shapewright.modelling.solids": self.imports}, *(text.imports for text in texts)])
         if self.quantities:
             imports = {"typing": ("Annotated",), "shapewright": ("Range",), **imports}
+        function = "\n\n\n".join([*(text.functions for text in texts), self.function])
         when = self.flag if self.function or not self.flag else f"not {self.flag}"
-        return NewRule(tuple(parameters), self.function, self.call, when, imports)
+        return NewRule(tuple(parameters), function, self.call, when, imports)
 
 
 def addition(
@@ -72,14 +83,15 @@ def addition(
     for several, word, label in zip(pieces, nouns, labels, strict=True):
         frame, along = best_frame(several, known)
         lines, asked = piece_lines(several, known, frame, along, free(word), label or word)
+        made = variable(several[0], free(word))
         for each, piece in zip(known, several, strict=True):
             outer = made_bounds(piece, frame, along, each)
-            each[f"{NEW}{free(word)}"] = outer
-            each[f"{INNER}{NEW}{free(word)}"] = inside_of(piece, outer)
+            each[f"{NEW}{made}"] = outer
+            each[f"{INNER}{NEW}{made}"] = inside_of(piece, outer)
         body += lines[1:] if lines[0] == room else lines
         room = next((line for line in lines if line.startswith("room = ")), room)
         quantities += asked
-        names.append(free(word))
+        names.append(made)
     rest = f"shape.without({', '.join(map(quoted, removed))})" if removed else "shape"
     if inset is not None:
         factor = free(f"{stem}_inset")
@@ -94,7 +106,8 @@ def addition(
         head = f"def {name}(\n    {arguments}\n):"
     text = "\n    ".join([head, f'"""{note}"""', *body])
     call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
-    return RuleDraft(name, stem, text, call, tuple(quantities), kit_functions(body))
+    rules = tuple({piece.rule.name: piece.rule for piece, *_ in pieces if piece.rule}.values())
+    return RuleDraft(name, stem, text, call, tuple(quantities), kit_functions(body), rules)
 
 
 def drawing_in(
@@ -141,6 +154,15 @@ def removal(label: str, free: Callable[[str], str]) -> RuleDraft:
     """A rule that makes a part optional."""
     flag = free(f"with_{_plain(label)}")
     return RuleDraft(flag, flag, "", f"{{shape}}.without({quoted(label)})", (), ())
+
+
+def _merged(several: Sequence[Mapping[str, tuple[str, ...]]]) -> dict[str, tuple[str, ...]]:
+    """The names to import by module; modules without names are left out."""
+    merged: dict[str, tuple[str, ...]] = {}
+    for imports in several:
+        for module, names in imports.items():
+            merged[module] = tuple(dict.fromkeys([*merged.get(module, ()), *names]))
+    return {module: names for module, names in merged.items() if names}
 
 
 def _sideways(name: str, scales: Sequence[tuple[float, float]], free: Callable[[str], str]) -> tuple[Quantity, ...]:

@@ -1,0 +1,75 @@
+"""Rules of the library as hypotheses: those that bring much for several misfits, in each where it brings most."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from shapewright.feedback.ideas.hypothesis import Costs, Hypothesis, priced
+from shapewright.feedback.parts.lack import Lack
+from shapewright.feedback.parts.rule_pieces import Gain, fitted, retrieved
+from shapewright.feedback.surfaces.residuals import Residuals
+from shapewright.rules.rule import Rule
+from shapewright.shapes import Mesh
+from shapewright.threads import in_threads
+
+# Where nothing else is said, chosen on first versions of vessels and buildings.
+_CHOSEN = 4  # rules that are fitted to each misfit
+_ALONE = 0.5  # of what a rule brings to one misfit alone: what several lack is worth writing
+
+Key = tuple[tuple[str, ...], str]
+"""Labels of the parts that go, and the name of the rule that comes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A misfit to find rules for.
+
+    Attributes:
+        replica: the shape that is changed.
+        differences: of the replica from the reference.
+        costs: of changed replicas.
+    """
+
+    replica: Mesh
+    differences: Residuals
+    costs: Costs
+
+
+def rule_hypotheses(studies: Sequence[Study], rules: Sequence[Rule], workers: int) -> list[list[Hypothesis]]:
+    """For each study the hypotheses with one rule that the studies share, the best first; none where none helps."""
+    gains = in_threads(lambda study: _gains(study, rules), studies, workers)
+    chosen = _shared(gains)
+
+    def tried(row: int) -> list[Hypothesis]:
+        study, blank = studies[row], Hypothesis(before=studies[row].costs([studies[row].replica])[0])
+        pieces = [(key, fitted(gains[row][key], _lack(study, key[0]))) for key in chosen if key in gains[row]]
+        several = [replace(blank, removed=removed, pieces=(piece,)) for (removed, _), (_, piece) in pieces]
+        helpful = [one for one in priced(several, study.replica, study.costs) if one.cost < one.before]
+        return sorted(helpful, key=lambda one: one.score)
+
+    return in_threads(tried, range(len(studies)), workers)
+
+
+def _gains(study: Study, rules: Sequence[Rule]) -> dict[Key, Gain]:
+    """What each rule brings beside all parts, and in place of each."""
+    labels = study.replica.label_names
+    return {
+        (removed, name): gain
+        for removed in dict.fromkeys([(), *((label,) for label in labels)])
+        for name, gain in retrieved(_lack(study, removed), rules).items()
+    }
+
+
+def _lack(study: Study, removed: tuple[str, ...]) -> Lack:
+    return Lack.of(study.differences, removed)
+
+
+def _shared(gains: Sequence[Mapping[Key, Gain]]) -> list[Key]:
+    """The rules that bring most over all studies."""
+    worth: dict[Key, list[float]] = {}
+    for one in gains:
+        for key, (gain, _) in one.items():
+            worth.setdefault(key, []).append(gain)
+    total = {key: sum(several) * (1.0 if len(several) > 1 else _ALONE) for key, several in worth.items()}
+    return sorted(total, key=lambda key: (-total[key], key))[:_CHOSEN]

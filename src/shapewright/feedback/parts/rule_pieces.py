@@ -1,0 +1,195 @@
+"""Rules of the library that make what a replica lacks: retrieved by where it stands, and fitted to the reference."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from shapewright.comparison.surfaces import Samples, sample
+from shapewright.feedback.parts.lack import Lack
+from shapewright.feedback.parts.pieces import Kind, Piece
+from shapewright.parameters import Integer, Scalar
+from shapewright.rules.rule import Rule
+from shapewright.shapes import Floats
+
+# Where nothing else is said, chosen by eye on first versions of vessels and buildings.
+_POINTS = 150  # of a piece's surface
+_SAMPLES = 3  # parameters of each rule that are compared: its defaults, and others
+_STEPS = (0.15,)  # of a Range, by which a fit changes one parameter at a time
+_SHIFTS = (0.03,)  # of the whole's extent, by which it moves one side of the box
+_SLACK = 0.03  # how much less a rule may bring before it is fitted than a primitive
+_LEAST = 0.01  # gain of a piece worth a hypothesis
+_FLOOR, _SIDE, _BODY = 0.1, 0.2, 0.5  # of the whole's extent: where a part stands low, aside; how large a body is
+_ASPECT = 2.5  # ratio of sides from one drawn surface of a rule to the next; between them it is stretched
+_PRIMITIVES: tuple[Kind, ...] = ("box", "cylinder", "rod x", "rod z", "frustum", "foot", "sphere")
+
+Gain: TypeAlias = tuple[float, Piece]
+"""How much better all match with a piece, of 1, and the piece."""
+
+
+def retrieved(lack: Lack, rules: Sequence[Rule]) -> dict[str, Gain]:
+    """What each rule brings in the box where it brings most, by its name; those that bring anything, as they are drawn.
+
+    A rule has to bring more than any primitive does.
+    """
+    boxes = lack.boxes()
+    plain = max((_gain(replace(box, kind=kind), lack) for box in boxes for kind in _PRIMITIVES), default=0.0)
+    best: dict[str, Gain] = {}
+    for box in boxes:
+        for rule in rules:
+            for turn in _turns(box, lack.bounds, rule):
+                for one in _sampled(replace(box, kind="rule", rule=rule, turn=turn), lack, range(_SAMPLES)):
+                    if one[0] > max(best.get(rule.name, (_LEAST, one))[0], plain - _SLACK):
+                        best[rule.name] = one
+    return best
+
+
+def fitted(start: Gain, lack: Lack) -> Gain:
+    """The piece with numbers of its rule and sides of its box changed one at a time, where that brings more."""
+    best = start[1]
+    most = _gain(best, lack)
+    for step, shift in zip(_STEPS, _SHIFTS, strict=True):
+        for changed in _changes(best, step, shift * lack.unit):
+            for way in (1.0, -1.0):
+                piece = changed(best, way)
+                if piece and (gain := _gain(piece, lack)) > most:
+                    best, most = piece, gain
+                    break
+    return most, best
+
+
+def _sampled(piece: Piece, lack: Lack, numbers: range) -> Iterator[Gain]:
+    """The piece with some of its rule's sampled parameters, and what it brings."""
+    assert piece.rule
+    width, height, depth = piece.size[::-1] if piece.turn % 180.0 else piece.size
+    aspect = _coarse(height / width), _coarse(depth / width)
+    for number in numbers:
+        if made := _instance(piece.rule, aspect, number):
+            arguments, samples = made
+            yield lack.gain(_placed(samples, piece, aspect)), replace(piece, arguments=arguments)
+
+
+@lru_cache(maxsize=8192)
+def _instance(rule: Rule, aspect: tuple[int, int], number: int) -> tuple[dict[str, Any], Samples] | None:
+    """Sampled parameters of a rule, and its surface; the first are the defaults.
+
+    aspect: its height and its depth, as powers of _ASPECT in units of its width.
+    """
+    drawn = [rule.space.defaults, *(rule.space.sample(_SAMPLES - 1, 0) if len(rule.space) else ())]
+    if number >= len(drawn):
+        return None
+    try:
+        return dict(drawn[number]), sample(rule(_size(aspect), **drawn[number]).mesh(), _POINTS)
+    except ValueError:
+        return None
+
+
+def _coarse(ratio: float) -> int:
+    """As a power of _ASPECT, -2 to 2."""
+    return min(max(round(math.log(ratio, _ASPECT)), -2), 2)
+
+
+def _size(aspect: tuple[int, int]) -> Floats:
+    return np.array([1.0, _ASPECT ** aspect[0], _ASPECT ** aspect[1]])
+
+
+def _placed(samples: Samples, piece: Piece, aspect: tuple[int, int]) -> Samples:
+    """The surface of a rule of this aspect, stretched to fill the box of a piece, with its mirror images."""
+    turning = _turning(piece.turn).T
+    factors = piece.size / np.abs(_size(aspect) @ turning)
+    normals = samples.normals @ turning / factors
+    lengths = np.linalg.norm(normals, axis=1)
+    placed = Samples(
+        samples.points @ turning * factors + piece.centre,
+        samples.faces,
+        normals / lengths[:, None],
+        samples.area * float(np.prod(factors) * lengths.mean()),
+    )
+    for axis, mirrored, middle in ((0, piece.mirrored[0], piece.middle[0]), (2, piece.mirrored[1], piece.middle[1])):
+        if mirrored:
+            flip = np.where(np.arange(3) == axis, -1.0, 1.0)
+            image = placed.points * flip + np.where(np.arange(3) == axis, 2.0 * middle, 0.0)
+            placed = Samples(
+                np.concatenate([placed.points, image]),
+                np.concatenate([placed.faces, placed.faces]),
+                np.concatenate([placed.normals, placed.normals * flip]),
+                2.0 * placed.area,
+            )
+    return placed
+
+
+def _changes(piece: Piece, step: float, shift: float) -> Iterator[Any]:
+    """Functions of a piece and a sign, each of which changes one thing; None where it cannot be changed so."""
+    assert piece.rule
+    for parameter in piece.rule.space:
+        if isinstance(parameter, Scalar | Integer):
+            yield lambda one, sign, parameter=parameter: _other(one, parameter, sign * step)
+    for end in ("low", "high"):
+        for axis in range(3):
+            yield lambda one, sign, end=end, axis=axis: _moved(one, end, axis, sign * shift)
+
+
+def _other(piece: Piece, parameter: Scalar | Integer, by: float) -> Piece | None:
+    """With another value of a parameter, by so much of its Range."""
+    away = by * (parameter.high - parameter.low)
+    if isinstance(parameter, Integer):
+        away = math.copysign(max(round(abs(away)), 1), by)
+    before = piece.arguments[parameter.name]
+    value = min(max(before + away, parameter.low), parameter.high)
+    value = round(value) if isinstance(parameter, Integer) else value
+    return None if value == before else replace(piece, arguments={**piece.arguments, parameter.name: value})
+
+
+def _moved(piece: Piece, end: str, axis: int, by: float) -> Piece | None:
+    """With one side of its box elsewhere."""
+    side = getattr(piece, end).copy()
+    side[axis] += by
+    moved = replace(piece, **{end: side})
+    if (moved.high - moved.low).min() <= 0.0:
+        return None
+    if axis != 1 and piece.mirrored[axis // 2] and moved.low[axis] < piece.middle[axis // 2]:
+        return None
+    return moved
+
+
+def _gain(piece: Piece, lack: Lack) -> float:
+    try:
+        return lack.gain(sample(piece.mesh(), _POINTS))
+    except ValueError:
+        return -math.inf
+
+
+def _turning(degrees: float) -> Floats:
+    """The matrix of a turn about y by quarter turns."""
+    cos, sin = round(math.cos(math.radians(degrees))), round(math.sin(math.radians(degrees)))
+    return np.array([[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]])
+
+
+def _turns(box: Piece, bounds: Floats, rule: Rule) -> tuple[float, ...]:
+    """Degrees by which a rule may be turned to fill the box; none where such a part does not stand there."""
+    extent = np.ptp(bounds, axis=0)
+    low, high = (box.low - bounds[0]) / extent, (box.high - bounds[0]) / extent
+    aside = (low + high) / 2.0 - 0.5
+    ways = (0.0, 90.0, 180.0, 270.0)[: rule.turns]
+    right, left, front, back = (0.0, 180.0, 270.0, 90.0) if rule.stance == "beside" else (90.0, 270.0, 0.0, 180.0)
+    match rule.stance:
+        case "under":
+            return ways if low[1] < _FLOOR else ()
+        case "on":
+            return ways if low[1] > _FLOOR else ()
+        case "body":
+            return ways if (box.size / extent).min() > _BODY else ()
+        case "beside" | "front":
+            if np.abs(aside[[0, 2]]).max() < _SIDE:
+                return ()
+            if abs(aside[0]) > abs(aside[2]):
+                return (right,) if aside[0] > 0.0 else (left,)
+            return (front,) if aside[2] > 0.0 else (back,)
+        case "back":
+            return (0.0,) if box.size[0] > box.size[2] else (90.0,)
+    return ways
