@@ -62,7 +62,7 @@ def sofa(
     cushion_height: Annotated[float, Range(0.1, 0.4, when=has_cushions)] = 0.2,  # of those before the back
     cushions: Annotated[int, Range(0, 4, when=is_sofa)] = 0,
     arms: Annotated[Literal["solid", "rolled", "bars", "none"], When(is_sofa)] = "solid",
-    length: Annotated[float, Range(1.5, 3.5, when=is_lounger)] = 2.8,
+    length: Annotated[float, Range(1.5, 5.0, when=is_lounger)] = 2.8,
     height: Annotated[float, Range(0.2, 0.9, when=is_lounger)] = 0.5,
     thickness: Annotated[float, Range(0.03, 0.15, when=is_lounger)] = 0.08,
     head: Annotated[float, Range(0.25, 0.5, when=is_lounger)] = 0.4,
