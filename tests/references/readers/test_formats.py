@@ -302,6 +302,12 @@ class TestReasons:
     def test_a_sheet_without_thickness_is_fine(self, tmp_path):
         assert len(triangles(put(tmp_path, "a.obj", SQUARE + b"f 1 2 3 4\nf 4 3 2 1\n"))) == 4
 
+    @pytest.mark.parametrize("kind", ["obj", "off", "ply", "stl"])
+    def test_a_file_of_another_kind_inside_says_what_it_holds(self, tmp_path, kind):
+        assert reason(put(tmp_path, f"a.{kind}", b"<!DOCTYPE html>" + bytes(99))).endswith("it holds a web page")
+        assert reason(put(tmp_path, f"b.{kind}", b"\x89PNG\r\n" + bytes(99))).endswith("it holds a PNG")
+        assert "it holds a" not in reason(put(tmp_path, f"c.{kind}", b"solid\nfacet\n" if kind == "stl" else b"\0\1"))
+
     def test_another_kind_of_file(self, tmp_path):
         assert ".obj" in reason(put(tmp_path, "a.txt", b"x"))
         assert "FBX, which is not read: open it in Blender" in reason(put(tmp_path, "a.fbx", b"x"))

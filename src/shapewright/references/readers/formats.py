@@ -9,6 +9,7 @@ import numpy as np
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.other_kinds import refusal
+from shapewright.references.readers.contents import held
 from shapewright.references.readers.gltf.scene import read_gltf
 from shapewright.references.readers.obj import read_obj
 from shapewright.references.readers.off import read_off
@@ -76,7 +77,7 @@ def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
         if kind in _DRAWINGS:
             return _DRAWINGS[kind](data)
         if kind in _POLYGONS:
-            polygons = _POLYGONS[kind](data)
+            polygons = _polygons(kind, data)
             vertices, faces, notes = polygons.vertices, triangulate(polygons), polygons.notes
         else:
             vertices, faces, notes = _SCENES[kind](path, data)
@@ -89,6 +90,23 @@ def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
     except UnreadableError as error:
         raise UnreadableError("; ".join([str(error), *notes])) from error
     return mesh, (*notes, *lost)
+
+
+def _polygons(kind: str, data: bytes) -> Polygons:
+    """The polygons of a file. Raises UnreadableError, which says what the file holds in place of polygons."""
+    try:
+        polygons = _POLYGONS[kind](data)
+        if len(polygons.counts):
+            return polygons
+        why = "it has no polygons"
+    except UnreadableError as error:
+        polygons, why = None, str(error)
+    inside = held(data)
+    if inside in ("text", "unknown data") or inside.split()[-1].lower() == kind[1:]:
+        if polygons is None:
+            raise UnreadableError(why)
+        return polygons
+    raise UnreadableError(f"{why}; it holds {inside}")
 
 
 def sound(vertices: Floats, faces: Ints) -> tuple[Mesh, tuple[str, ...]]:
