@@ -24,6 +24,7 @@ import numpy as np
 
 import shapewright as sw
 from shapewright.report import write_report
+from shapewright.rules.library import library
 from shapewright.storage import cache_folder
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -37,6 +38,9 @@ class Hour:
 
     kind: str
     folders: tuple[str, ...]  # of references, within ``DATA``
+    own: tuple[
+        str, ...
+    ]  # bundled rules for this kind: they are left out, so that the library does not answer with them
 
     @property
     def versions(self) -> list[Path]:
@@ -52,12 +56,12 @@ class Hour:
 
 
 KINDS = (
-    Hour("vessels", ("vessels",)),
-    Hour("buildings", ("buildings",)),
-    Hour("lamps", ("furniture/lamp",)),
-    Hour("sofas", ("furniture/sofa", "furniture/lounger")),
-    Hour("trees", ("trees",)),
-    Hour("chairs", ("furniture/chair",)),
+    Hour("vessels", ("vessels",), ("vessels",)),
+    Hour("buildings", ("buildings",), ("buildings",)),
+    Hour("lamps", ("furniture/lamp",), ("lamps",)),
+    Hour("sofas", ("furniture/sofa", "furniture/lounger"), ("cabinets",)),
+    Hour("trees", ("trees",), ("plants",)),
+    Hour("chairs", ("furniture/chair",), ("cabinets", "supports")),
 )
 
 
@@ -70,7 +74,8 @@ def suggested(hour: Hour, steps: int, settings: sw.Settings, out: Path | None) -
             procedure = sw.load_procedure(path)
             iteration = sw.fit(procedure, references, settings, cache=cache_folder(), previous=iteration)
             fitted = time.perf_counter()
-            made = sw.explain(iteration, procedure, references).suggestions if step < steps else ()
+            rules = library(without=hour.own)
+            made = sw.explain(iteration, procedure, references, rules=rules).suggestions if step < steps else ()
             explained = time.perf_counter() - fitted
             yield row(hour, f"{step}", iteration, fitted - began, f"{explained:.0f}" if step < steps else "", edit)
             if not made:
