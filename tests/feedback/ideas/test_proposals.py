@@ -8,6 +8,7 @@ from shapewright.feedback.ideas.needed_ranges import narrowed
 from shapewright.feedback.ideas.proposal import Misfit
 from shapewright.feedback.ideas.proposals import frames_of, proposals
 from shapewright.feedback.parts.pieces import Piece
+from shapewright.rules.library import bundled_rules
 
 TABLE = """from typing import Annotated
 
@@ -134,3 +135,20 @@ def test_parts_that_are_splayed_alone_and_where_another_goes(table, tmp_path):
 
 def test_nothing_in_common_is_no_proposal(table):
     assert made(table, [misfit(table, 0)]) == []
+
+
+def test_a_rule_of_the_library_takes_the_box_of_the_part_in_whose_place_it_comes(table):
+    (rule,) = [rule for rule in bundled_rules("supports") if rule.name == "tapered_legs"]
+    several = []
+    for row, height in enumerate((0.6, 0.7)):
+        low, high = np.array([-0.5, 0.02, -0.35]), np.array([0.5, height - 0.03, 0.35])
+        piece = Piece("rule", low, high, rule=rule, arguments={"thickness": 0.1 + 0.02 * row, "foot": 0.5})
+        change = Hypothesis(removed=("legs",), pieces=(piece,), cost=900.0, before=3000.0)
+        several.append(misfit(table, row, change, height=height))
+    (found,) = proposals(TABLE, "table", table.space, several, ["top", "legs"])
+    assert found.title == "Tapered legs in place of the legs"
+    source = found.write(found.ranges)
+    assert 'space = within(shape.part("legs"))' in source and "space.fill(tapered_legs, thickness=" in source
+    assert "def tapered_legs(size, thickness=0.12, foot=0.5):" in source and "with_tapered_legs: bool = False" in source
+    assert found.ranges["tapered_legs_thickness"][:2] == (0.05, 0.3)  # as the rule says, whatever two misfits need
+    assert {q.name for q in found.rule.quantities} == {"tapered_legs_thickness", "tapered_legs_foot"}

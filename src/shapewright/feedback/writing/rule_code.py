@@ -106,8 +106,9 @@ def addition(
         head = f"def {name}(\n    {arguments}\n):"
     text = "\n    ".join([head, f'"""{note}"""', *body])
     call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
+    flag = free(f"with_{stem}") if any(several[0].rule for several in pieces) else stem  # the rule has the plain name
     rules = tuple({piece.rule.name: piece.rule for piece, *_ in pieces if piece.rule}.values())
-    return RuleDraft(name, stem, text, call, tuple(quantities), kit_functions(body), rules)
+    return RuleDraft(name, flag, text, call, tuple(quantities), kit_functions(body), rules)
 
 
 def drawing_in(
