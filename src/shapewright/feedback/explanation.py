@@ -29,8 +29,8 @@ from shapewright.threads import in_threads
 
 _OF_CAUSES = {"describe": 0.04, "differences": 0.06, "causes": 0.9}
 _SHARES = {"describe": 0.03, "differences": 0.04, "causes": 0.53, "hypotheses": 0.1, "trials": 0.3}
-"""Of each stage in the time that explaining takes, without suggestions and with them. Measured on 96 misfits among 200
-tables (benchmarks/explaining.py)."""
+"""Of each stage in the time that explaining takes, without suggestions and with them: estimates, good enough to say
+about how long it takes still."""
 
 
 @dataclass(frozen=True, eq=False)

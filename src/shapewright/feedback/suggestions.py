@@ -33,10 +33,10 @@ from shapewright.threads import in_threads
 
 EVALUATIONS = 4_500
 """Shapes built for all trials together, about, where misfits are few: the causes of many take long enough."""
-# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
-_FEWER, _LEAST = 36, 1 / 4  # shapes less for each misfit, until this part of them is left
 PAPER_GOAL = THRESHOLD * RAW_SCALE
 """Of the raw light field distance: what hypotheses cost is in these units, whichever judge it is."""
+# Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
+_FEWER, _LEAST = 36, 1 / 4  # shapes less for each misfit, until this part of them is left
 _STUDIED = 12  # misfits that hypotheses are made for, at most
 _HYPOTHESES = 3  # of each of these, at most
 _FEW = 0.12  # share of these, of which a proposal must be for more to be tried

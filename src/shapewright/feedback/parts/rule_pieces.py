@@ -19,9 +19,9 @@ from shapewright.shapes import Floats
 
 # Where nothing else is said, chosen by eye on first versions of vessels and buildings.
 _POINTS = 150  # of a piece's surface
-_SAMPLES = 3  # parameters of each rule that are compared: its defaults, and others
-_STEPS = (0.15,)  # of a Range, by which a fit changes one parameter at a time
-_SHIFTS = (0.03,)  # of the whole's extent, by which it moves one side of the box
+_LEADING, _SAMPLES = 12, 6  # rules that are drawn with other parameters than their defaults, and with how many
+_STEP = 0.15  # of a Range, by which a fit changes one parameter at a time
+_SHIFT = 0.03  # of the whole's extent, by which it moves one side of the box
 _SLACK = 0.03  # how much less a rule may bring before it is fitted than a primitive
 _LEAST = 0.01  # gain of a piece worth a hypothesis
 _FLOOR, _SIDE, _BODY = 0.1, 0.2, 0.5  # of the whole's extent: where a part stands low, aside; how large a body is
@@ -33,33 +33,34 @@ Gain: TypeAlias = tuple[float, Piece]
 
 
 def retrieved(lack: Lack, rules: Sequence[Rule]) -> dict[str, Gain]:
-    """What each rule brings in the box where it brings most, by its name; those that bring anything, as they are drawn.
+    """What rules bring in the box where they bring most, by their names; those that bring about as much as a primitive.
 
-    A rule has to bring more than any primitive does.
+    All are drawn with their defaults; those that lead then also with other parameters.
     """
     boxes = lack.boxes()
     plain = max((_gain(replace(box, kind=kind), lack) for box in boxes for kind in _PRIMITIVES), default=0.0)
     best: dict[str, Gain] = {}
-    for box in boxes:
-        for rule in rules:
-            for turn in _turns(box, lack.bounds, rule):
-                for one in _sampled(replace(box, kind="rule", rule=rule, turn=turn), lack, range(_SAMPLES)):
-                    if one[0] > max(best.get(rule.name, (_LEAST, one))[0], plain - _SLACK):
-                        best[rule.name] = one
-    return best
+    for rule in rules:
+        ways = [(box, turn) for box in boxes for turn in _turns(box, lack.bounds, rule)]
+        pieces = [replace(box, kind="rule", rule=rule, turn=turn) for box, turn in ways]
+        drawn = [one for piece in pieces for one in _sampled(piece, lack, range(1))]
+        if drawn:
+            best[rule.name] = max(drawn, key=_value)
+    leading = sorted(best.items(), key=lambda item: -item[1][0])[:_LEADING]
+    found = {name: max([one, *_sampled(one[1], lack, range(1, _SAMPLES))], key=_value) for name, one in leading}
+    return {name: one for name, one in found.items() if one[0] > max(_LEAST, plain - _SLACK)}
 
 
 def fitted(start: Gain, lack: Lack) -> Gain:
     """The piece with numbers of its rule and sides of its box changed one at a time, where that brings more."""
     best = start[1]
     most = _gain(best, lack)
-    for step, shift in zip(_STEPS, _SHIFTS, strict=True):
-        for changed in _changes(best, step, shift * lack.unit):
-            for way in (1.0, -1.0):
-                piece = changed(best, way)
-                if piece and (gain := _gain(piece, lack)) > most:
-                    best, most = piece, gain
-                    break
+    for changed in _changes(best, _SHIFT * lack.unit):
+        for way in (1.0, -1.0):
+            piece = changed(best, way)
+            if piece and (gain := _gain(piece, lack)) > most:
+                best, most = piece, gain
+                break
     return most, best
 
 
@@ -90,8 +91,8 @@ def _instance(rule: Rule, aspect: tuple[int, int], number: int) -> tuple[dict[st
 
 
 def _coarse(ratio: float) -> int:
-    """As a power of _ASPECT, -2 to 2."""
-    return min(max(round(math.log(ratio, _ASPECT)), -2), 2)
+    """As a power of _ASPECT, -1 to 1."""
+    return min(max(round(math.log(ratio, _ASPECT)), -1), 1)
 
 
 def _size(aspect: tuple[int, int]) -> Floats:
@@ -123,12 +124,12 @@ def _placed(samples: Samples, piece: Piece, aspect: tuple[int, int]) -> Samples:
     return placed
 
 
-def _changes(piece: Piece, step: float, shift: float) -> Iterator[Any]:
+def _changes(piece: Piece, shift: float) -> Iterator[Any]:
     """Functions of a piece and a sign, each of which changes one thing; None where it cannot be changed so."""
     assert piece.rule
     for parameter in piece.rule.space:
         if isinstance(parameter, Scalar | Integer):
-            yield lambda one, sign, parameter=parameter: _other(one, parameter, sign * step)
+            yield lambda one, sign, parameter=parameter: _other(one, parameter, sign * _STEP)
     for end in ("low", "high"):
         for axis in range(3):
             yield lambda one, sign, end=end, axis=axis: _moved(one, end, axis, sign * shift)
@@ -162,6 +163,10 @@ def _gain(piece: Piece, lack: Lack) -> float:
         return lack.gain(sample(piece.mesh(), _POINTS))
     except ValueError:
         return -math.inf
+
+
+def _value(gain: Gain) -> float:
+    return gain[0]
 
 
 def _turning(degrees: float) -> Floats:
