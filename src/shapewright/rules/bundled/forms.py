@@ -212,3 +212,38 @@ def steps(size: Vector, count: Annotated[int, Range(2, 8)] = 3) -> Solid:
 def tapered_column(size: Vector, top: Annotated[float, Range(0.2, 1.0)] = 0.6) -> Solid:
     """A round column that grows narrower upwards."""
     return cone(size, bottom=1, top=top, segments=12)
+
+
+@rule("body")
+def necked_body(
+    size: Vector,
+    neck: Annotated[float, Range(0.1, 0.9)] = 0.4,
+    shoulder: Annotated[float, Range(0.3, 0.9)] = 0.6,
+    slope: Annotated[float, Range(0.02, 0.5)] = 0.3,
+) -> Solid:
+    """A round body under a neck; shoulder: the height where it begins to grow narrower; slope: how far, of the rest."""
+    end = shoulder + slope * (1 - shoulder)
+    return revolve([(0, 0), (1, 0), (1, shoulder), (neck, end), (neck, 1), (0, 1)]).fit(size)
+
+
+@rule("body")
+def domed_body(size: Vector, dome: Annotated[float, Range(0.05, 0.6)] = 0.3) -> Solid:
+    """A round body under half a ball; dome: its part of the height."""
+    width, height, depth = size
+    top = dome * height
+    ball = sphere((width, 2 * top, depth), (0, height / 2 - top, 0))
+    return ball | cylinder((width, height - top, depth), (0, -top / 2, 0))
+
+
+@rule("body")
+def turned_shell(
+    size: Vector,
+    foot: Annotated[float, Range(0.4, 1.0)] = 0.6,
+    middle: Annotated[float, Range(0.4, 1.0)] = 1.0,
+    rim: Annotated[float, Range(0.4, 1.0)] = 0.8,
+    wall: Annotated[float, Range(0.03, 0.15)] = 0.06,
+) -> Solid:
+    """A round body with a wall, open at the top: how wide it is below, in the middle and above."""
+    outer = [(foot / 2, 0), (middle / 2, 0.5), (rim / 2, 1)]
+    inner = [(x - wall, max(y, wall)) for x, y in reversed(outer)]
+    return revolve([(0, 0), *outer, *inner, (0, wall)]).fit(size)
