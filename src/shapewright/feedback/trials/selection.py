@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -31,6 +32,7 @@ from shapewright.feedback.trials.attempt import (
 )
 from shapewright.feedback.trials.outcome import PROMISING, Outcome
 from shapewright.feedback.trials.tried import Tried
+from shapewright.feedback.writing.piece_code import number
 from shapewright.feedback.writing.source import EditError
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters, ParameterSpace
@@ -143,8 +145,14 @@ def _change(trials: _Trials, idea: Proposal, source: str, outcome: Outcome) -> I
     helped = tuple(row for row, way in ways.items() if way >= _NEARER)
     value = sum(ways[row] + 0.5 * max(1.0 - outcome.apart(row), 0.0) for row in helped)
     if value >= _LEAST_VALUE:
-        values = [outcome.parameters[row] for row in helped]
-        yield Change(idea, narrowed(idea, trials.space, values), source, outcome, helped, value)
+        ranges = narrowed(idea, trials.space, [outcome.parameters[row] for row in helped])
+        if idea.rule or any(_reads_longer(trials.space[name], *ranges[name][:2]) for name in ranges):
+            yield Change(idea, ranges, source, outcome, helped, value)
+
+
+def _reads_longer(parameter: Any, low: float, high: float) -> bool:
+    """Whether a Range is longer in the digits that an author reads."""
+    return (number(low), number(high)) != (number(parameter.low), number(parameter.high))
 
 
 def _built(trials: _Trials, idea: Proposal, known: Sequence[Replica]) -> Iterator[_Prospect]:
