@@ -32,6 +32,11 @@ def test_a_module_is_short(module):
     assert len((PACKAGE / module).read_text(encoding="utf-8").splitlines()) <= LINES
 
 
+def test_no_two_tests_have_one_name():
+    names = [path.name for path in Path(__file__).parent.rglob("test_*.py")]
+    assert len(names) == len(set(names))
+
+
 def test_no_room_is_crowded():
     folders = {module.parent for module in MODULES}
     count = {folder.as_posix(): len([m for m in MODULES if m.parent == folder]) for folder in folders}
