@@ -186,7 +186,7 @@ def _text(change: Change, procedure: Procedure, gain: int, nearer: int, misfits:
         return f"{'; '.join(changes)}. {would}, and none is lost."
     flag = change.proposal.rule.flag
     off = f" Without {flag} every shape stays as it was." if flag else " By default every shape stays as it was."
-    return f"{change.proposal.title}: {would}, and none is lost.{off}"
+    return f"{would}, and none is lost.{off}"
 
 
 def _snippet(change: Change, procedure: Procedure) -> str:

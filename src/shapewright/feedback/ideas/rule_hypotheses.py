@@ -14,7 +14,7 @@ from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
 
 # Where nothing else is said, chosen on first versions of vessels and buildings.
-_CHOSEN = 4  # rules that are fitted to each misfit
+_CHOSEN = 6  # rules that are fitted to each misfit
 _ALONE = 0.5  # of what a rule brings to one misfit alone: what several lack is worth writing
 
 Key = tuple[tuple[str, ...], str]

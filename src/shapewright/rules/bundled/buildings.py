@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from shapewright.modelling.solids import Solid, Vector, box, cone, cylinder, extrude, hull, prism, union
+from shapewright.modelling.solids import Solid, Vector, box, cylinder, extrude, hull, prism, union
 from shapewright.parameters import Range
 from shapewright.rules.rule import rule
 
@@ -109,17 +109,6 @@ def wing(size: Vector, wall: Annotated[float, Range(0.4, 1.0)] = 0.7) -> Solid:
     gable = [(-depth / 2, -height / 2), (depth / 2, -height / 2), (depth / 2, low - height / 2)]
     gable += [(0, height / 2), (-depth / 2, low - height / 2)] if wall < 1 else [(-depth / 2, height / 2)]
     return extrude(gable, width).rotate(-90, "x").rotate(90)
-
-
-@rule("around")
-def round_tower(
-    size: Vector, roof: Annotated[float, Range(0.1, 0.6)] = 0.3, wall: Annotated[float, Range(0.6, 1.0)] = 0.85
-) -> Solid:
-    """A round tower under a cone; roof: its part of the height; wall: of the roof's width."""
-    width, height, depth = size
-    top = roof * height
-    body = cylinder((wall * width, height - 0.9 * top, wall * depth), (0, -0.45 * top, 0))
-    return body | cone((width, top, depth), (0, (height - top) / 2, 0))
 
 
 @rule("front", turns=4)

@@ -247,3 +247,14 @@ def turned_shell(
     outer = [(foot / 2, 0), (middle / 2, 0.5), (rim / 2, 1)]
     inner = [(x - wall, max(y, wall)) for x, y in reversed(outer)]
     return revolve([(0, 0), *outer, *inner, (0, wall)]).fit(size)
+
+
+@rule("around")
+def capped_body(
+    size: Vector, cap: Annotated[float, Range(0.1, 0.6)] = 0.3, body: Annotated[float, Range(0.6, 1.0)] = 0.85
+) -> Solid:
+    """A round body under a cone; cap: its part of the height; body: how wide it is, of the cap."""
+    width, height, depth = size
+    top = cap * height
+    column = cylinder((body * width, height - 0.9 * top, body * depth), (0, -0.45 * top, 0))
+    return column | cone((width, top, depth), (0, (height - top) / 2, 0))
