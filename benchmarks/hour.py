@@ -67,12 +67,12 @@ KINDS = (
 
 def suggested(hour: Hour, steps: int, settings: sw.Settings, out: Path | None) -> Iterator[str]:
     """A row for the first version and for each after a suggestion."""
-    references, path, edit, iteration = hour.references(), hour.versions[0], "", None
+    references, path, edit, iteration, known = hour.references(), hour.versions[0], "", None, {}
     with tempfile.TemporaryDirectory() as folder:
         for step in range(steps + 1):
             began = time.perf_counter()
             procedure = sw.load_procedure(path)
-            iteration = sw.fit(procedure, references, settings, cache=cache_folder(), previous=iteration)
+            iteration = sw.fit(procedure, references, settings, None, cache_folder(), iteration, known)
             fitted = time.perf_counter()
             rules = library(without=hour.own)
             made = sw.explain(iteration, procedure, references, rules=rules).suggestions if step < steps else ()
@@ -82,6 +82,7 @@ def suggested(hour: Hour, steps: int, settings: sw.Settings, out: Path | None) -
                 if step < steps:
                     yield f"| {hour.kind}, {step + 1} | | | | | | nothing is suggested |"
                 break
+            known = {name: [values] for name, values in made[0].tried["parameters"].items()}
             edit, path = made[0].title, Path(folder) / f"step{step + 1}.py"
             path.write_text(made[0].source, encoding="utf-8")
             if out:

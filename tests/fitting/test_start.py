@@ -60,3 +60,14 @@ def test_replicas_are_kept_where_they_are_nearer():
     assert later.parameters == [near, start.known[1]]
     assert later.distances[0] < first.distances[0] and later.distances[1] == first.distances[1]
     assert Replicas.none(2).parameters == []
+
+
+def test_parameters_known_besides_are_tried_where_they_are_better():
+    known = {"thin": [{"width": 0.9, "depth": 0.6}, {"width": 0.3, "depth": 0.8}], "wide": [{"width": 0.3}]}
+    start = Start.of(REFERENCES, slab.space, None, known)
+    assert [len(several) for several in start.others] == [2, 1]  # in the order of the names: thin, wide
+    with Workers(slab, 1) as crew:
+        replicas = resume(start, crew, Judge.of(REFERENCES, sw.Settings(workers=1)))
+    thin, wide = replicas.builds
+    assert thin.parameters == pytest.approx({"width": 0.3, "depth": 0.8}) and replicas.fidelities[0] > 0.9
+    assert wide.parameters == pytest.approx({"width": 0.3, "depth": 1.0})  # no other was known

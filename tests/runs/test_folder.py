@@ -6,7 +6,15 @@ import time
 
 import pytest
 
-from shapewright.runs.folder import RunError, check_writable, new_folder, next_run, read_record, runs
+from shapewright.runs.folder import (
+    RunError,
+    check_writable,
+    new_folder,
+    next_run,
+    read_record,
+    runs,
+    suggested_parameters,
+)
 
 
 def write_run(folder):
@@ -73,3 +81,12 @@ def test_a_place_that_cannot_be_written_is_said_before_the_work(tmp_path):
         check_writable(tmp_path / "file" / "001")
     with pytest.raises(RunError, match="something here already"):
         check_writable(tmp_path / "file")
+
+
+def test_what_suggestions_found_is_read_where_the_procedure_has_their_parameters(tmp_path):
+    tried = [{"a": {"width": 1.0, "handle": True}}, {"a": {"width": 2.0}, "b": {"width": 3.0}}]
+    record = {"suggestions": [{"tried": {"parameters": found}} for found in tried] + [{"tried": None}]}
+    (tmp_path / "explanation.json").write_text(json.dumps(record))
+    assert suggested_parameters(tmp_path, ["width"]) == {"a": [{"width": 2.0}], "b": [{"width": 3.0}]}
+    assert len(suggested_parameters(tmp_path, ["width", "handle"])["a"]) == 2
+    assert suggested_parameters(tmp_path / "none", ["width"]) == {}

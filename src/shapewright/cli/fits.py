@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,8 +13,16 @@ from rich.markup import escape
 from shapewright.cli.console import err, interruptible, iteration_record, print_iteration, print_json
 from shapewright.cli.options import Front, Json, PresetOption, ProcedureArgument, Up, with_settings
 from shapewright.cli.runs import explain_saved, judged_by_marks
+from shapewright.parameters import Parameters
 from shapewright.procedures import load_procedure
-from shapewright.runs.folder import RunError, check_free, check_writable, next_run, previous_run
+from shapewright.runs.folder import (
+    RunError,
+    check_free,
+    check_writable,
+    next_run,
+    previous_run,
+    suggested_parameters,
+)
 from shapewright.settings import Settings
 from shapewright.storage import cache_folder
 
@@ -60,7 +68,8 @@ def fit(
     earlier = Iteration.load(previous) if previous else None
     author, loaded = load_procedure(procedure), Collection.load(references, up=up, front=front)
     check_writable(folder)
-    iteration, folder = fit_and_save(author, loaded, settings, folder, earlier, explain)
+    known = suggested_parameters(previous, author.space.names) if previous else None
+    iteration, folder = fit_and_save(author, loaded, settings, folder, earlier, explain, known)
     if json:
         print_json(iteration_record(iteration, folder))
     else:
@@ -74,6 +83,7 @@ def fit_and_save(
     folder: Path,
     previous: Iteration | None = None,
     explained: bool = False,
+    known: Mapping[str, Sequence[Parameters]] | None = None,
 ) -> tuple[Iteration, Path]:
     """Run and save one iteration with its report, then explain it if wanted; returns it and the folder that it is in.
 
@@ -82,7 +92,7 @@ def fit_and_save(
     from shapewright.fitting.fit import fit as iterate
 
     with interruptible("nothing of this run was written; earlier runs are as they were") as listen:
-        iteration = iterate(procedure, references, settings, listen, cache_folder(), previous)
+        iteration = iterate(procedure, references, settings, listen, cache_folder(), previous, known)
     _save(iteration, folder)
     if explained:
         _explain(iteration, procedure, references, folder)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from shapewright.building import Workers
@@ -11,6 +12,7 @@ from shapewright.fitting.replicas import replicate, resume
 from shapewright.fitting.results import judged, recorded
 from shapewright.fitting.start import Start
 from shapewright.judging.judge import Judge
+from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
@@ -25,6 +27,7 @@ def fit(
     progress: Listener | None = None,
     cache: Path | None = None,
     previous: Iteration | None = None,
+    known: Mapping[str, Sequence[Parameters]] | None = None,
 ) -> Iteration:
     """One iteration: find parameters for every reference, and say which the procedure cannot replicate yet.
 
@@ -38,12 +41,13 @@ def fit(
         cache: a folder that keeps the references' descriptors between iterations.
         previous: an iteration with an earlier version of the procedure, to resume. Its parameters, network and cameras
             are carried over, which takes a third of the time.
+        known: parameters that are worth a trial, by the name of their reference: those of a suggestion, for instance.
 
     Raises:
         ProcedureError: the procedure cannot build shapes.
     """
     settings, stages = settings or Settings(), Stages(progress)
-    start = Start.of(references, procedure.space, previous)
+    start = Start.of(references, procedure.space, previous, known)
     with Workers.of(procedure, settings) as crew:
         lesson = learn(crew, settings, stages, start)
         turns = quarter_turns(references, lesson.predictor, crew, settings, stages)

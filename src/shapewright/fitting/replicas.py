@@ -72,11 +72,16 @@ class Replicas:
 
 
 def resume(start: Start, crew: Workers, judge: Judge) -> Replicas:
-    """The replicas of an earlier iteration, built again; default parameters where it had none."""
+    """The replicas of an earlier iteration, built again, or better ones; defaults where there are none."""
     replicas = Replicas.none(len(start.known))
-    if not start.resumed:
-        return replicas
-    return replicas.tried([known or crew.procedure.space.defaults for known in start.known], crew, judge)
+    defaults = crew.procedure.space.defaults
+    if start.resumed:
+        replicas = replicas.tried([known or defaults for known in start.known], crew, judge)
+    for number in range(max(map(len, start.others), default=0)):
+        best = [build.parameters if build else defaults for build in replicas.builds]
+        vectors = [more[number] if number < len(more) else own for more, own in zip(start.others, best, strict=True)]
+        replicas = replicas.tried(vectors, crew, judge)
+    return replicas
 
 
 def replicate(

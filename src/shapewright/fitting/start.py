@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.prediction.dataset import Dataset
@@ -22,10 +23,22 @@ class Start:
     known: tuple[Parameters | None, ...]  # found by it for each reference, in the present space; None for a new one
     predictor: Predictor | None  # the one that it trained
     new: frozenset[str] | None  # scalars that it did not have, or not in this Range; None where it did not search
+    others: tuple[tuple[Parameters, ...], ...] = ()  # for each reference parameters worth a trial too
 
     @classmethod
-    def of(cls, references: Collection, space: ParameterSpace, previous: Iteration | None) -> Start:
-        """Without an earlier iteration nothing is known."""
+    def of(
+        cls,
+        references: Collection,
+        space: ParameterSpace,
+        previous: Iteration | None,
+        known: Mapping[str, Sequence[Parameters]] | None = None,
+    ) -> Start:
+        """Without an earlier iteration nothing is known but ``known``: parameters by the name of their reference."""
+        others = tuple(tuple(map(space.carry, (known or {}).get(name, ()))) for name in references.names)
+        return replace(cls._resumed(references, space, previous), others=others)
+
+    @classmethod
+    def _resumed(cls, references: Collection, space: ParameterSpace, previous: Iteration | None) -> Start:
         if previous is None:
             return cls(references, False, (None,) * len(references), None, None)
         old = {result.name: result.parameters for result in previous}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -97,3 +97,20 @@ def read_json(path: Path) -> dict[str, Any]:
     """A file of a run; None for a number that is not finite, which browsers refuse. Raises OSError or ValueError."""
     record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"), parse_constant=lambda _: None)
     return record
+
+
+def suggested_parameters(run: Path, names: Collection[str]) -> dict[str, list[dict[str, Any]]]:
+    """What suggestions for a run found, by the name of the reference: of those whose parameters a procedure has all.
+
+    run: its folder. names: of the procedure's parameters. Empty where the run is not explained.
+    """
+    try:
+        suggestions = read_json(run / EXPLANATION).get("suggestions", [])
+    except (OSError, ValueError):
+        return {}
+    found: dict[str, list[dict[str, Any]]] = {}
+    for suggestion in suggestions:
+        for name, values in ((suggestion.get("tried") or {}).get("parameters") or {}).items():
+            if set(values) <= set(names):
+                found.setdefault(name, []).append(values)
+    return found

@@ -35,16 +35,18 @@ def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     from shapewright.fitting.fit import fit as iterate
     from shapewright.procedures import load_procedure
     from shapewright.report import write_report
-    from shapewright.runs.folder import next_run, previous_run
+    from shapewright.runs.folder import next_run, previous_run, suggested_parameters
     from shapewright.runs.iteration import Iteration
     from shapewright.settings import Settings
     from shapewright.storage import cache_folder, write_file
 
     procedure, references = load_procedure(request["procedure"]), collection(Origin(**request["origin"]))
-    previous = Iteration.load(request["previous"]) if request["previous"] else None
-
+    previous, known = None, None
+    if request["previous"]:
+        previous = Iteration.load(request["previous"])
+        known = suggested_parameters(Path(request["previous"]), procedure.space.names)
     settings = Settings.from_record(request["settings"])
-    iteration = iterate(procedure, references, settings, reporter.progress, cache_folder(), previous)
+    iteration = iterate(procedure, references, settings, reporter.progress, cache_folder(), previous, known)
     reporter.stage("save", 0, 1)
     folder = next_run(Path(request["runs"])).absolute()
     before = previous_run(folder, set(iteration.names))
