@@ -13,6 +13,7 @@ from shapewright.feedback.explanation import explain
 from shapewright.feedback.record import record_of
 from shapewright.feedback.suggestions import Suggestion
 from shapewright.feedback.surfaces.residuals import residuals
+from shapewright.feedback.trials.tried import Tried
 from shapewright.judging.judge import Judge
 from shapewright.judging.target import Measures
 from shapewright.modelling.solids import box
@@ -172,13 +173,13 @@ def test_only_what_no_parameters_solve_is_asked_suggestions_for(procedure, monke
     settings = sw.Settings(workers=1, threshold=0.12, judge="paper")
     asked = []
 
-    def suggestions(procedure, cases, crew, judge, stages):
+    def suggestions(procedure, cases, crew, judge, stages, rules):
         asked.extend(case.name for case in cases)
-        return (Suggestion("range", "longer", "", "", "", b"", ("tall",)),)
+        return (Suggestion("range", "longer", "", "", "", b"", ("tall",)),), (Tried("longer", "range", 1, 0.9, 1.0),)
 
     monkeypatch.setattr("shapewright.feedback.explanation.suggestions", suggestions)
     found = explain(iteration_of(procedure, references, vectors, settings), procedure, references)
-    assert asked == ["tall"] and found.suggestions[0].title == "longer"
+    assert asked == ["tall"] and found.suggestions[0].title == found.tried[0].title == "longer"
 
 
 def test_what_a_person_calls_different_is_told_by_its_fidelity(procedure):
