@@ -10,7 +10,7 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
-from shapewright.feedback.case import Case
+from shapewright.feedback.case import Case, Replica
 from shapewright.feedback.ideas.hypotheses import hypotheses
 from shapewright.feedback.ideas.hypothesis import Hypothesis
 from shapewright.feedback.ideas.proposal import Misfit
@@ -112,17 +112,20 @@ def _misfits(cases: Sequence[Case], judge: Judge, rules: Sequence[Rule]) -> list
         guesses: list[Hypothesis] = []
         if base := bases.get(case):
             guesses = hypotheses(base.differences, case.reference, base.replica, base.costs)[:_HYPOTHESES]
-        base_replica = case.nearest if judge.settings.judge == "fidelity" else case.covering
-        return Misfit(base_replica, case.nearest, case.outside, (*guesses, *of_rules.get(case.row, ())), PAPER_GOAL)
+        return Misfit(
+            _changed(case, judge), case.nearest, case.outside, (*guesses, *of_rules.get(case.row, ())), PAPER_GOAL
+        )
 
     return in_threads(study, cases, judge.settings.workers)
 
 
-def _base(case: Case, judge: Judge) -> Study:
-    """What hypotheses change: by the paper's judge the replica whose surface has most in common, else the nearest.
+def _changed(case: Case, judge: Judge) -> Replica:
+    """What hypotheses change: by the paper's judge the replica whose surface has most in common, else the nearest."""
+    return case.covering if judge.settings.judge == "paper" else case.nearest
 
-    They are priced by what a search makes small, in units of the light field.
-    """
+
+def _base(case: Case, judge: Judge) -> Study:
+    """The replica that hypotheses change. They are priced by what a search makes small, in units of the light field."""
     target = judge.targets[case.row]
     if judge.settings.judge == "paper":
         return Study(case.covering.mesh, case.covering_residuals, lambda meshes: [target.cost(mesh) for mesh in meshes])

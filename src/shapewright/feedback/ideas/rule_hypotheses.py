@@ -38,12 +38,13 @@ class Study:
 
 def rule_hypotheses(studies: Sequence[Study], rules: Sequence[Rule], workers: int) -> list[list[Hypothesis]]:
     """For each study the hypotheses with one rule that the studies share, the best first; none where none helps."""
-    gains = in_threads(lambda study: _gains(study, rules), studies, workers)
+    lacks = in_threads(_lacks, studies, workers)
+    gains = in_threads(lambda own: _gains(own, rules), lacks, workers)
     chosen = _shared(gains)
 
     def tried(row: int) -> list[Hypothesis]:
         study, blank = studies[row], Hypothesis(before=studies[row].costs([studies[row].replica])[0])
-        pieces = [(key, fitted(gains[row][key], _lack(study, key[0]))) for key in chosen if key in gains[row]]
+        pieces = [(key, fitted(gains[row][key], lacks[row][key[0]])) for key in chosen if key in gains[row]]
         several = [replace(blank, removed=removed, pieces=(piece,)) for (removed, _), (_, piece) in pieces]
         helpful = [one for one in priced(several, study.replica, study.costs) if one.cost < one.before]
         return sorted(helpful, key=lambda one: one.score)
@@ -51,18 +52,15 @@ def rule_hypotheses(studies: Sequence[Study], rules: Sequence[Rule], workers: in
     return in_threads(tried, range(len(studies)), workers)
 
 
-def _gains(study: Study, rules: Sequence[Rule]) -> dict[Key, Gain]:
+def _lacks(study: Study) -> dict[tuple[str, ...], Lack]:
+    """What is lacking beside all parts, and without each of them, by the labels of the parts that go."""
+    without = dict.fromkeys([(), *((label,) for label in study.replica.label_names)])
+    return {removed: Lack.of(study.differences, removed) for removed in without}
+
+
+def _gains(lacks: Mapping[tuple[str, ...], Lack], rules: Sequence[Rule]) -> dict[Key, Gain]:
     """What each rule brings beside all parts, and in place of each."""
-    labels = study.replica.label_names
-    return {
-        (removed, name): gain
-        for removed in dict.fromkeys([(), *((label,) for label in labels)])
-        for name, gain in retrieved(_lack(study, removed), rules).items()
-    }
-
-
-def _lack(study: Study, removed: tuple[str, ...]) -> Lack:
-    return Lack.of(study.differences, removed)
+    return {(removed, name): gain for removed, lack in lacks.items() for name, gain in retrieved(lack, rules).items()}
 
 
 def _shared(gains: Sequence[Mapping[Key, Gain]]) -> list[Key]:

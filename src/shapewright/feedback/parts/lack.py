@@ -33,7 +33,7 @@ class Lack:
     Attributes:
         points: (N, 3), of the reference's surface that can be seen.
         apart: (N,), their distances to what stays.
-        kept: (M,), how well each point of what stays matches, 0 to 1.
+        kept: how well the points of what stays match on average, 0 to 1.
         area: of what stays.
         middle: x and z of the planes about which the reference is symmetric, where it is.
         reference: its surface, normalised.
@@ -42,7 +42,7 @@ class Lack:
 
     points: Floats
     apart: Floats
-    kept: Floats
+    kept: float
     area: float
     middle: tuple[float, float]
     reference: VisibleSurface
@@ -61,7 +61,7 @@ class Lack:
             apart = _subset(ours, stays).nearness(theirs.points[theirs.visible], _FAR)
         else:
             apart = np.full(len(points), _FAR)
-        kept = _matching(differences.to_reference[stays], _NEAR)
+        kept = float(_matching(differences.to_reference[stays], _NEAR).mean()) if stays.any() else 0.0
         centre = placement.invert(np.zeros(3))
         area = ours.area * unit**2 * float(stays.sum()) / max(int(ours.visible.sum()), 1)
         middle = (float(centre[0]), float(centre[2]))
@@ -92,11 +92,11 @@ class Lack:
     def gain(self, piece: Samples) -> float:
         """How much better all match, of 1, when a piece is added. piece: points of its surface."""
         there = self.reference.nearness(self.placement.apply(piece.points), _FAR)
-        here = _matching(there, _NEAR)
+        here = float(_matching(there, _NEAR).mean())
         some, before = self._some
         after = np.minimum(before, _distances(some, piece))
-        matching, weights = np.concatenate([self.kept, here]), self._weights(len(here), piece.area)
-        return self._score(after, matching, weights) - self._now
+        precision = (self.kept * self.area + here * piece.area) / (self.area + piece.area)
+        return self._score(after, precision) - self._now
 
     @cached_property
     def _some(self) -> tuple[Floats, Floats]:
@@ -105,17 +105,11 @@ class Lack:
 
     @cached_property
     def _now(self) -> float:
-        return self._score(self._some[1], self.kept, self._weights(0, 0.0)) if len(self.kept) else 0.0
+        return self._score(self._some[1], self.kept)
 
-    def _weights(self, count: int, area: float) -> Floats:
-        """Of the points that stay and ``count`` others, by the area that each stands for."""
-        kept = np.full(len(self.kept), self.area / max(len(self.kept), 1))
-        return np.concatenate([kept, np.full(count, area / max(count, 1))])
-
-    def _score(self, apart: Floats, matching: Floats, weights: Floats) -> float:
+    def _score(self, apart: Floats, precision: float) -> float:
         """F-score: what of the reference is there, and what is there of the reference."""
         recall = float(_matching(apart, _NEAR * self.unit).mean())
-        precision = float(np.average(matching, weights=weights))
         return 2.0 * precision * recall / max(precision + recall, 1e-9)
 
 
@@ -150,8 +144,7 @@ def _ways(piece: Piece) -> Iterator[Piece]:
     """The box of a piece; of a mirrored one also the box around its copies."""
     yield Piece("box", piece.low, piece.high, piece.mirrored, piece.middle)
     if any(piece.mirrored):
-        copies = piece.copies
-        low, high = np.min([copy.low for copy in copies], axis=0), np.max([copy.high for copy in copies], axis=0)
+        low, high = piece.outer
         yield Piece("box", low, high, middle=piece.middle)
 
 

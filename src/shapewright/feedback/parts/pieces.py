@@ -95,6 +95,12 @@ class Piece:
             copies.append(replace(self, low=low, high=high, mirrored=(False, False)))
         return copies
 
+    @property
+    def outer(self) -> Floats:
+        """The box (2, 3) around all its copies."""
+        copies = self.copies
+        return np.stack([np.min([copy.low for copy in copies], axis=0), np.max([copy.high for copy in copies], axis=0)])
+
     def mesh(self) -> Mesh:
         """Its surface, all copies of it."""
         if self.rule:

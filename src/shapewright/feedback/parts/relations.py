@@ -144,8 +144,7 @@ def made_bounds(piece: Piece, frame: str, along: Sequence[Along], frames: Frames
         }[here.place]
         low[axis], high[axis] = middle - half, middle + half
     x, z = frames[frame].mean(axis=0)[[0, 2]]  # copies are mirrored about the frame
-    copies = replace(piece, low=low, high=high, middle=(float(x), float(z))).copies
-    return np.stack([np.min([copy.low for copy in copies], axis=0), np.max([copy.high for copy in copies], axis=0)])
+    return replace(piece, low=low, high=high, middle=(float(x), float(z))).outer
 
 
 def inside_of(piece: Piece, outer: Floats) -> Floats:
