@@ -10,8 +10,9 @@ import trimesh
 
 from shapewright.references import Collection
 from shapewright.references.errors import UnreadableError
-from shapewright.references.readers.formats import EXTENSIONS, MESH_FORMATS, read
+from shapewright.references.readers.formats import EXTENSIONS, MESH_FORMATS, contents, read
 from shapewright.shapes.files import FORMATS
+from threemf_files import mesh, model, object_, single
 
 # A soup: an open box corner with a doubled face, an inverted one, and a degenerate one.
 VERTICES = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [0, 0, 0.5], [2, 0, 0.5]])
@@ -325,3 +326,13 @@ def test_every_text_lists_the_formats_that_there_are():
     page = (root / "studio-page/src/frame/exporting.tsx").read_text()
     assert f"({json.dumps(FORMATS)} as ExportFormat[]).map" in page
     assert set(FORMATS) < {extension[1:] for extension in EXTENSIONS}
+
+
+def test_what_a_format_or_a_file_states_of_unit_and_up_is_told(tmp_path):
+    inches = single(model(object_(1, mesh()), 'objectid="1"', attributes='unit="inch"'))
+    found = contents(put(tmp_path, "a.3mf", inches))
+    assert (found.unit, found.up) == (pytest.approx(0.0254), "z")
+    soup().export(tmp_path / "a.glb")
+    assert (contents(tmp_path / "a.glb").unit, contents(tmp_path / "a.glb").up) == (1.0, "y")
+    soup().export(tmp_path / "a.ply")
+    assert (contents(tmp_path / "a.ply").unit, contents(tmp_path / "a.ply").up) == (None, None)

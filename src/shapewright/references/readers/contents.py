@@ -1,8 +1,29 @@
-"""What a file holds, told by its first bytes, whatever its name says."""
+"""What a file holds: its shape with what the file states of it, and its kind, told by its first bytes."""
 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
+
+from shapewright.shapes import Shape
+
+
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """What a reader finds in a file.
+
+    Attributes:
+        shape: the triangles in one mesh, or the drawing, in the file's own units and axes.
+        notes: what of the file was left out.
+        unit: the unit of the shape in metres, where the file or its format states it; else None.
+        up: the axis that points up, among x, y, z, -x, -y, -z, where the file or its format states it; else None.
+    """
+
+    shape: Shape
+    notes: tuple[str, ...] = ()
+    unit: float | None = None
+    up: str | None = None
+
 
 _SIGNS: tuple[tuple[bytes, str], ...] = (
     (rb"\x89PNG", "a PNG"),

@@ -9,7 +9,7 @@ import numpy as np
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.other_kinds import refusal
-from shapewright.references.readers.contents import held
+from shapewright.references.readers.contents import Contents, held
 from shapewright.references.readers.gltf.scene import read_gltf
 from shapewright.references.readers.obj import read_obj
 from shapewright.references.readers.off import read_off
@@ -17,6 +17,7 @@ from shapewright.references.readers.pictures import KINDS as PICTURES
 from shapewright.references.readers.pictures import read_picture
 from shapewright.references.readers.ply import read_ply
 from shapewright.references.readers.polygons import Polygons, check_indices, triangulate
+from shapewright.references.readers.scene_parts import Scene
 from shapewright.references.readers.stl import read_stl
 from shapewright.references.readers.svg import read_svg
 from shapewright.references.readers.threemf.build import read_3mf
@@ -28,7 +29,7 @@ _POLYGONS: dict[str, Callable[[bytes], Polygons]] = {
     ".ply": read_ply,
     ".stl": read_stl,
 }
-_SCENES: dict[str, Callable[[Path, bytes], tuple[Floats, Ints, tuple[str, ...]]]] = {
+_SCENES: dict[str, Callable[[Path, bytes], Scene]] = {
     ".glb": read_gltf,
     ".gltf": read_gltf,
     ".3mf": read_3mf,
@@ -52,7 +53,13 @@ _AT_ONCE = 100_000
 
 
 def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
-    """The triangles of a file in one mesh, or its drawing, and notes on what of it was left out.
+    """The shape of ``contents`` and its notes; raises UnreadableError as it does."""
+    found = contents(path)
+    return found.shape, found.notes
+
+
+def contents(path: Path) -> Contents:
+    """The triangles of a file in one mesh, or its drawing, with notes on what was left out, its unit and its up axis.
 
     Polygons are triangulated and scenes flattened; materials and textures are ignored. Triangles stay unchanged,
     inward, doubled or flat. The reader leaves out vertices that no triangle uses and, with a note, triangles with a
@@ -75,21 +82,21 @@ def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
         raise UnreadableError(f"a pointer of git-annex, not the file itself; {_FETCH}")
     try:
         if kind in _DRAWINGS:
-            return _DRAWINGS[kind](data)
+            return Contents(*_DRAWINGS[kind](data))
         if kind in _POLYGONS:
             polygons = _polygons(kind, data)
-            vertices, faces, notes = polygons.vertices, triangulate(polygons), polygons.notes
+            scene = Scene(polygons.vertices, triangulate(polygons), polygons.notes)
         else:
-            vertices, faces, notes = _SCENES[kind](path, data)
+            scene = _SCENES[kind](path, data)
     except UnreadableError:
         raise
     except Exception as error:  # a broken file can make a parser fail in any way
         raise UnreadableError(f"broken: {type(error).__name__}: {error}") from error
     try:
-        mesh, lost = sound(vertices, faces)
+        mesh, lost = sound(scene.vertices, scene.faces)
     except UnreadableError as error:
-        raise UnreadableError("; ".join([str(error), *notes])) from error
-    return mesh, (*notes, *lost)
+        raise UnreadableError("; ".join([str(error), *scene.notes])) from error
+    return Contents(mesh, (*scene.notes, *lost), scene.unit, scene.up)
 
 
 def _polygons(kind: str, data: bytes) -> Polygons:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -12,6 +13,26 @@ from shapewright.shapes import Floats, Ints
 
 Piece: TypeAlias = tuple[Floats, Ints]
 """Vertices (V, 3) and faces (F, 3)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """The triangles that a scene shows.
+
+    Attributes:
+        vertices: (V, 3) float64, in the file's own units and axes.
+        faces: (F, 3) int64.
+        notes: what of the file was left out.
+        unit: in metres, where the file or its format states it; else None.
+        up: the axis that points up, among x, y, z, -x, -y, -z, where the file or its format states it; else None.
+    """
+
+    vertices: Floats
+    faces: Ints
+    notes: tuple[str, ...] = ()
+    unit: float | None = None
+    up: str | None = None
+
 
 MOST = 10_000_000
 """Triangles of a file, repeated ones included: they take a gigabyte. A small file can announce any number."""

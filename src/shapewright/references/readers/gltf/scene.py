@@ -17,8 +17,8 @@ from shapewright.references.readers.gltf.document import INSTANCES, Document, No
 from shapewright.references.readers.gltf.graph import graph, trs
 from shapewright.references.readers.gltf.primitives import Geometry, geometry, has_triangles, size
 from shapewright.references.readers.gltf.skins import joint_matrices, posed
-from shapewright.references.readers.scene_parts import Piece, join, placed, refuse_too_many
-from shapewright.shapes import Floats, Ints
+from shapewright.references.readers.scene_parts import Piece, Scene, join, placed, refuse_too_many
+from shapewright.shapes import Floats
 
 
 class _Instances(msgspec.Struct, rename="camel", frozen=True):
@@ -32,8 +32,8 @@ _KEPT = 4
 """Streams of Draco that are held at once."""
 
 
-def read_gltf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
-    """Vertices (V, 3) and faces (F, 3) of a glTF file's bytes, and notes on what was left out.
+def read_gltf(path: Path, data: bytes) -> Scene:
+    """The triangles of a glTF file's bytes, Y up, in metres.
 
     Meshes stand where the scene shows them: by their nodes, their instances, or the joints of their skin; morph targets
     count as their default weights say. Points and lines, materials and motion are left out. Files beside it are looked
@@ -77,7 +77,7 @@ def read_gltf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
         raise UnreadableError("no triangles, only points or lines")
     notes = [f"{others} x primitive left out: points, lines, or without positions"] if others else []
     notes += [f"{spare} x corner left out: no whole triangle"] if spare else []
-    return vertices, faces, (*container.notes, *unknown, *shown.notes, *notes)
+    return Scene(vertices, faces, (*container.notes, *unknown, *shown.notes, *notes), unit=1.0, up="y")
 
 
 def _mesh(document: Document, node: Node) -> tuple[int, tuple[float, ...]]:

@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
-from shapewright.references.readers.scene_parts import join, placed, refuse_too_many
+from shapewright.references.readers.scene_parts import Scene, join, placed, refuse_too_many
 from shapewright.references.readers.threemf.model import Model, Object, Use, read_model
 from shapewright.references.readers.threemf.package import Package, part_key, unpack
-from shapewright.shapes import Floats, Ints
+from shapewright.shapes import Floats
 
 _DEEPEST = 100
 """Levels of components. Real packages have one to three."""
@@ -23,6 +23,7 @@ _LASTING = ("model", "surface")
 _MOST = 200_000
 """Places of objects. A small package can announce any number, since an object may be a component of many."""
 _SHOWN = 60
+_MILLIMETRE = 1e-3  # in metres
 _Key = tuple[str, int]
 _Models = Callable[[str], Model]
 
@@ -42,8 +43,8 @@ class _Size(NamedTuple):
     places: int
 
 
-def read_3mf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
-    """Vertices (V, 3) and faces (F, 3) of a 3MF file's bytes, in the unit of its build, and notes on what was left out.
+def read_3mf(path: Path, data: bytes) -> Scene:
+    """The triangles of a 3MF file's bytes, Z up, in the unit of its build.
 
     Objects stand where build items and components place them, in any part of the package. What only supports them is
     left out. Raises UnreadableError, with the reason.
@@ -73,7 +74,8 @@ def read_3mf(path: Path, data: bytes) -> tuple[Floats, Ints, tuple[str, ...]]:
     notes += [f"{count} x object of the type {kind[:_SHOWN]!r} left out" for kind, count in kinds.items()]
     others = Counter(what for _, thing in shown for what in thing.others)
     notes += [f"{count} x {what} passed over" for what, count in others.items()]
-    return vertices, faces, (*package.notes, *notes)
+    unit = models(root).unit * _MILLIMETRE
+    return Scene(vertices, faces, (*package.notes, *notes), unit, up="z")
 
 
 def _models(package: Package) -> _Models:
