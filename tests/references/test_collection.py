@@ -13,7 +13,9 @@ from hypothesis.extra import numpy as npst
 import shapewright as sw
 from shapewright.references import Collection, CollectionError, Orientation
 from shapewright.references.orientation import AXES
-from shapewright.shapes import Drawing
+from shapewright.shapes import Drawing, Mesh
+from shapewright.shapes.files import encode
+from threemf_files import mesh, model, object_, single
 
 SHARED = Path(__file__).resolve().parents[2].parent / "shared"
 ORIENTATIONS = [(up, front) for up in AXES for front in AXES if up[-1] != front[-1]]
@@ -190,3 +192,40 @@ def test_the_open_references_load_whole(source, count):
         np.testing.assert_allclose(reference.transform.centre, 0, atol=1e-5)
         assert reference.transform.scale == pytest.approx(1.0, abs=1e-5)
         np.testing.assert_allclose(reference.shape.extent.max(), 1.0)
+
+
+class TestWhatAFormatSays:
+    """Of its axes and its unit."""
+
+    @pytest.fixture
+    def wedge(self, tmp_path):
+        package = single(model(object_(1, mesh(WEDGE, FACES)), 'objectid="1"', attributes='unit="centimeter"'))
+        (tmp_path / "wedge.3mf").write_bytes(package)
+        return tmp_path / "wedge.3mf"
+
+    def test_a_3mf_is_z_up_and_its_size_is_known(self, wedge):
+        (reference,) = Collection.load(wedge)
+        assert (reference.orientation, reference.axes_by) == (Orientation("z", "-y"), "format")
+        assert reference.unit == 0.01
+        np.testing.assert_allclose(reference.size, [0.02, 0.04, 0.01])  # width, height, depth
+        np.testing.assert_allclose(reference.to_original(reference.shape.bounds).min(axis=0), WEDGE.min(axis=0))
+
+    @pytest.mark.parametrize("word", [{"up": "x"}, {"front": "x"}])
+    def test_the_author_knows_better(self, wedge, word):
+        (reference,) = Collection.load(wedge, **word)
+        assert (reference.orientation, reference.axes_by) == (Orientation.of(**word), "author")
+
+    def test_so_does_a_manifest_that_says_y(self, wedge):
+        wedge.with_name("list.csv").write_text("path,up\nwedge.3mf,y\nwedge.3mf,\n")
+        first, second = Collection.load(wedge.with_name("list.csv"))
+        assert (first.orientation.up, first.axes_by) == ("y", "author")
+        assert (second.orientation.up, second.axes_by) == ("z", "format")
+
+    def test_gltf_is_in_metres_and_obj_in_nothing(self, tmp_path):
+        (tmp_path / "a.glb").write_bytes(encode(Mesh(WEDGE, FACES)))
+        (tmp_path / "b.obj").write_text(obj())
+        a, b = Collection.load(tmp_path)
+        assert (a.orientation, a.axes_by, a.unit) == (Orientation(), "format", 1.0)
+        assert (b.orientation, b.axes_by, b.unit) == (Orientation(), "default", None)
+        np.testing.assert_allclose(a.size, [2, 1, 4])
+        np.testing.assert_allclose(b.size, [2, 1, 4])

@@ -10,11 +10,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from shapewright.references import sources
 from shapewright.references.errors import CollectionError, UnreadableError
-from shapewright.references.orientation import QUARTER_TURNS, Orientation
+from shapewright.references.orientation import QUARTER_TURNS, AxesBy, Orientation
 from shapewright.references.readers import formats as files
 from shapewright.shapes import Drawing, Floats, Mesh, Shape, Transform, shape_digest
 from shapewright.shapes.conversion import as_shape
@@ -34,6 +35,8 @@ class Reference:
         transform: how it was centred and scaled, after it was turned.
         orientation: how a mesh was turned.
         notes: what of the file was left out.
+        axes_by: who says that it is to be turned so.
+        unit: that of the file, in metres, where the file or its format states it; else None.
     """
 
     name: str
@@ -42,11 +45,20 @@ class Reference:
     transform: Transform
     orientation: Orientation = field(default_factory=Orientation)
     notes: tuple[str, ...] = ()
+    axes_by: AxesBy = "default"
+    unit: float | None = None
 
     @cached_property
     def digest(self) -> str:
         """A key for the normalised geometry."""
         return shape_digest(self.shape)
+
+    @property
+    def size(self) -> Floats:
+        """(3,): width, height and depth as it stands, of a drawing (2,), in metres; in the file's units where ``unit``
+        is None."""
+        size = (self.shape.bounds[1] - self.shape.bounds[0]) / self.transform.scale
+        return np.asarray(size * (self.unit or 1.0))
 
     def to_original(self, points: ArrayLike) -> Floats:
         """Points (..., 3), of a drawing (..., 2), in the frame of ``shape``, back in the file's own units and axes."""
@@ -120,7 +132,8 @@ class Collection:
 
         Args:
             source: one source or several.
-            up: the axis of the mesh files that points up, among x, y, z, -x, -y, -z.
+            up: the axis of the mesh files that points up, among x, y, z, -x, -y, -z. A file whose format says which
+                axis that is, as 3MF does, goes by its format where this is y.
             front: the axis that points to the front; by default z, or -y where up is z or -z, as in Blender and CAD.
         """
         origins = [source] if isinstance(source, str | os.PathLike) else list(source)
@@ -191,8 +204,12 @@ def read_reference(source: sources.Source) -> Reference:
     """One file of those that ``sources.find`` lists. Raises UnreadableError, with the reason."""
     if source.refusal:
         raise UnreadableError(source.refusal)
-    shape, notes = files.read(source.path)
-    return _normalised(source.name, source.place, shape, source.orientation, notes)
+    found = files.contents(source.path)
+    by_format = found.up is not None and not source.by_author
+    orientation = Orientation.of(found.up) if found.up and by_format else source.orientation
+    by: AxesBy = "author" if source.by_author else "format" if by_format else "default"
+    reference = _normalised(source.name, source.place, found.shape, orientation, found.notes)
+    return replace(reference, axes_by=by, unit=found.unit)
 
 
 def _normalised(

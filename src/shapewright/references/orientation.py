@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +16,10 @@ QUARTER_TURNS = tuple(
 )
 """Rotations about the up axis by 0, 90, 180 and 270 degrees, from the front (+Z) towards the right (+X)."""
 AXES = ("x", "y", "z", "-x", "-y", "-z")
+
+
+AxesBy: TypeAlias = Literal["author", "format", "default"]
+"""Who says which axes of a file point up and to the front: its author, the file's format, or nobody."""
 
 
 @dataclass(frozen=True)

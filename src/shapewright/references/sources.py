@@ -45,6 +45,7 @@ class Source:
         archive: the archive that it was unpacked from; None for a file that lies where it was found.
         inside: its path in the archive.
         refusal: why it is not read, where that is known by its name or place; else None.
+        by_author: whether the author says which axes these are. Else a format that says so itself knows better.
     """
 
     name: str
@@ -53,6 +54,7 @@ class Source:
     archive: Path | None = None
     inside: Path = Path()
     refusal: str | None = None
+    by_author: bool = False
 
     @property
     def place(self) -> Path:
@@ -71,7 +73,7 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> 
     A name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj`` (ShapeNet). Where names clash
     the path takes its place. Raises CollectionError where there is nothing to read.
     """
-    default = Orientation.of(up, front)
+    default, by_author = Orientation.of(up, front), is_authors(up, front)
     if not origins:
         raise CollectionError("the list of references is empty; give it folders, patterns or files")
     sources: list[Source] = []
@@ -80,13 +82,19 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> 
             if path.suffix.lower() == MANIFEST and path.is_file():
                 sources += _in_manifest(path, up, front)
             else:
-                sources += _expand(path, default, alone=len(origins) == 1)
+                found = _expand(path, default, alone=len(origins) == 1)
+                sources += [replace(source, by_author=by_author) for source in found]
     except OSError as error:
         raise CollectionError(f"cannot look into {error.filename}: {error.strerror}") from error
     places = [Path(printable(one.place)) for one in sources]
     names = _unique([printable(one.name) for one in sources], places)
     named = (replace(source, name=name) for source, name in zip(sources, names, strict=True))
     return sorted(named, key=lambda source: natural_key(source.name))
+
+
+def is_authors(up: str | None, front: str | None) -> bool:
+    """Whether these axes, the arguments of ``find``, are the word of an author: Y up is what nobody says."""
+    return front is not None or (up or "y").strip().lower().removeprefix("+") != "y"
 
 
 def natural_key(name: str) -> tuple[list[int | str], str]:
@@ -213,7 +221,8 @@ def _in_manifest(manifest: Path, up: str, front: str | None) -> list[Source]:
             orientation = Orientation.of(cells.get("up") or up, cells.get("front") or front)
         except CollectionError as error:
             raise CollectionError(f"{path}, as the manifest lists it: {error}") from error
-        sources.append(Source(cells.get("name") or _stem(path), path, orientation))
+        said = is_authors(up, front) or bool(cells.get("up") or cells.get("front"))
+        sources.append(Source(cells.get("name") or _stem(path), path, orientation, by_author=said))
     if not sources:
         raise CollectionError(f"{manifest} lists no files; give each a line with its path")
     return sources
