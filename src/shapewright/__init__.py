@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from shapewright.parameters import Binary, Choice, Integer, ParameterSpace, Range, Scalar, When
 from shapewright.procedures import Infeasible, Procedure, ProcedureError, load_procedure, procedure
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Mesh, Transform
+from shapewright.shapes import Drawing, Mesh, Points, Transform
 
 if TYPE_CHECKING:
     from shapewright.comparison import light_field, outline
@@ -66,6 +66,7 @@ __all__ = [
     "Iteration",
     "Mesh",
     "ParameterSpace",
+    "Points",
     "Predictor",
     "Procedure",
     "ProcedureError",

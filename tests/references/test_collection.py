@@ -163,7 +163,9 @@ class TestInMemory:
         assert seat.digest != references["back"].digest
 
     def test_meshes_and_drawings_do_not_mix(self):
-        with pytest.raises(CollectionError, match=r"1 meshes and 1 drawings \(leg, ...\) in one collection; load one"):
+        with pytest.raises(
+            CollectionError, match=r"1 meshes or points and 1 drawings \(leg, ...\) in one collection; load one"
+        ):
             Collection.of({"seat": (WEDGE, FACES), "leg": shapely.box(0, 0, 1, 1)})
 
     def test_no_shapes(self):

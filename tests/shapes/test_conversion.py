@@ -6,8 +6,8 @@ import pytest
 import shapely
 import trimesh
 
-from shapewright.shapes import Drawing, Mesh
-from shapewright.shapes.conversion import as_shape
+from shapewright.shapes import Drawing, Mesh, Points
+from shapewright.shapes.conversion import as_reference, as_shape
 
 VERTICES, FACES = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
 
@@ -130,3 +130,28 @@ def test_a_cross_section_keeps_its_holes():
 def test_what_is_no_shape_is_refused_with_the_reason(value, error, message):
     with pytest.raises(error, match=message):
         as_shape(value)
+
+
+class TestPoints:
+    CORNERS = np.array([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 2.0, 0.0]])
+
+    def test_points_and_a_point_cloud_of_trimesh_are_references(self):
+        points = Points(self.CORNERS)
+        assert as_reference(points) is points
+        assert (as_reference(trimesh.PointCloud(self.CORNERS)).positions == self.CORNERS).all()
+
+    def test_a_cloud_that_says_whether_it_has_normals_gives_them(self):
+        normals = np.tile([0.0, 0.0, 1.0], (3, 1))
+        cloud = SimpleNamespace(points=self.CORNERS, normals=normals, has_normals=lambda: True)
+        assert (as_reference(cloud).normals == normals).all()
+        assert as_reference(SimpleNamespace(points=self.CORNERS, has_normals=lambda: False)).normals is None
+
+    def test_a_procedure_cannot_return_points_and_is_told_what_it_can(self):
+        with pytest.raises(TypeError, match=r"returned points .*no surface; return a mesh"):
+            as_shape(Points(self.CORNERS))
+        with pytest.raises(TypeError, match="returned points"):
+            as_shape([trimesh.PointCloud(self.CORNERS)])
+
+    def test_points_at_one_place_are_no_reference(self):
+        with pytest.raises(ValueError, match="no size"):
+            as_reference(Points(self.CORNERS[:1]))

@@ -10,7 +10,7 @@ from shapewright.prediction.predictor import Predictor
 from shapewright.progress import Stages
 from shapewright.references import Collection
 from shapewright.settings import Searching
-from shapewright.shapes import Mesh, Shape
+from shapewright.shapes import Mesh, ReferenceShape, Shape
 from shapewright.threads import in_threads
 
 _CLEARLY = 0.9
@@ -38,7 +38,7 @@ def _costs(references: Collection, predictor: Predictor, crew: Workers) -> list[
     shapes = [reference.shape for reference in references]
     builds = crew.build(predictor.predict(shapes))
 
-    def cost(pair: tuple[Shape, Shape | None]) -> float:
+    def cost(pair: tuple[ReferenceShape, Shape | None]) -> float:
         reference, replica = pair
         if isinstance(reference, Mesh) and isinstance(replica, Mesh):
             return PosedDifference(reference)(replica)

@@ -22,15 +22,17 @@ from shapewright.judging.verdict import Evidence, Grade, Standing, Verdict, apar
 from shapewright.references import Collection
 from shapewright.search.objective import Criterion, Measure, measure_of
 from shapewright.settings import Settings
-from shapewright.shapes import Floats, Ints, Mesh, Shape
-from shapewright.shapes.conversion import as_shape
+from shapewright.shapes import Drawing, Floats, Ints, Mesh, Points, ReferenceShape, Shape
+from shapewright.shapes.conversion import as_reference, as_shape
 from shapewright.threads import in_threads
 
 Rows = Sequence[int] | Ints  # indices of references in their collection
 
 
-def target_of(shape: Shape, settings: Settings, cache: Path | None = None) -> Target:
+def target_of(shape: ReferenceShape, settings: Settings, cache: Path | None = None) -> Target:
     """What replicas of a mesh or of a drawing are measured against; cache: a folder that keeps descriptors."""
+    if isinstance(shape, Points):
+        raise TypeError("points cannot be judged yet; make a mesh of them")
     return MeshTarget(shape, settings, cache) if isinstance(shape, Mesh) else DrawingTarget(shape, settings)
 
 
@@ -38,12 +40,12 @@ def fidelity(replica: Any, reference: Any, settings: Settings | None = None) -> 
     """How likely a person calls a replica the same as its reference, and where the two differ.
 
     Both are what a procedure may return, and are compared as they stand, after normalisation: neither is turned or
-    mirrored. settings: the cuts of the grades, and the judge that grades. Raises TypeError for a mesh with a drawing,
-    ValueError for a shape that no picture shows.
+    mirrored. The reference may be points, too. settings: the cuts of the grades, and the judge that grades. Raises
+    TypeError for a drawing with another kind, ValueError for a shape that no picture shows.
     """
-    replica, reference = as_shape(replica), as_shape(reference)
-    if isinstance(replica, Mesh) != isinstance(reference, Mesh):
-        raise TypeError("a mesh and a drawing cannot be compared")
+    replica, reference = as_shape(replica), as_reference(reference)
+    if isinstance(replica, Drawing) != isinstance(reference, Drawing):
+        raise TypeError("a mesh and a drawing cannot be compared; a drawing can be with drawings alone")
     target = target_of(reference, settings or Settings())
     found = target.evidence(replica)
     measures = target.measures(replica, fidelity=found.value)

@@ -17,7 +17,7 @@ from shapewright.prediction.network import CompactNetwork, make_network
 from shapewright.prediction.training import Epoch
 from shapewright.rendering.cameras import PAGE, Camera
 from shapewright.rendering.raster import render
-from shapewright.shapes import Drawing, Shape
+from shapewright.shapes import Drawing, ReferenceShape
 from shapewright.storage import write_file
 
 
@@ -70,11 +70,11 @@ class Predictor:
         network.load_state_dict(record["state"])
         return cls(space, network.eval(), cameras, record["size"], record["metrics"], [], record["samples"])
 
-    def predict(self, shapes: Sequence[Shape]) -> list[Parameters]:
+    def predict(self, shapes: Sequence[ReferenceShape]) -> list[Parameters]:
         """The parameters for each shape, which need not be normalised."""
         return self.infer(shapes).decode()
 
-    def infer(self, shapes: Sequence[Shape]) -> Prediction:
+    def infer(self, shapes: Sequence[ReferenceShape]) -> Prediction:
         """What is likely for each shape, and how far off each scalar may be.
 
         Raises ValueError for meshes where it has learned from drawings, and the other way round.

@@ -17,8 +17,8 @@ from shapewright.references import sources
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.orientation import QUARTER_TURNS, AxesBy, Orientation
 from shapewright.references.readers import formats as files
-from shapewright.shapes import Drawing, Floats, Mesh, Shape, Transform, shape_digest
-from shapewright.shapes.conversion import as_shape
+from shapewright.shapes import Drawing, Floats, Mesh, Points, ReferenceShape, Transform, shape_digest
+from shapewright.shapes.conversion import as_reference
 from shapewright.storage import printable
 
 _REASONS = 5
@@ -31,9 +31,10 @@ class Reference:
     Attributes:
         name: unique in its collection.
         path: its file, of one in an archive the paths of the archive and inside of it; None for a shape made in memory.
-        shape: the mesh, Y up, front towards +Z, or the drawing; the bounding box is centred and its largest side is 1.
+        shape: the mesh or points, Y up, front towards +Z, or the drawing; the bounding box is centred and its largest
+            side is 1.
         transform: how it was centred and scaled, after it was turned.
-        orientation: how a mesh was turned.
+        orientation: how a mesh or points were turned.
         notes: what of the file was left out.
         axes_by: who says that it is to be turned so.
         unit: that of the file, in metres, where the file or its format states it; else None.
@@ -41,7 +42,7 @@ class Reference:
 
     name: str
     path: Path | None
-    shape: Shape
+    shape: ReferenceShape
     transform: Transform
     orientation: Orientation = field(default_factory=Orientation)
     notes: tuple[str, ...] = ()
@@ -63,14 +64,14 @@ class Reference:
     def to_original(self, points: ArrayLike) -> Floats:
         """Points (..., 3), of a drawing (..., 2), in the frame of ``shape``, back in the file's own units and axes."""
         original = self.transform.invert(points)
-        return self.orientation.invert(original) if isinstance(self.shape, Mesh) else original
+        return original if isinstance(self.shape, Drawing) else self.orientation.invert(original)
 
     def turned(self, quarters: int) -> Reference:
         """The same shape after a number of quarter turns about the up axis, from the front towards the right.
 
         A drawing stays as it is.
         """
-        if not isinstance(self.shape, Mesh):
+        if isinstance(self.shape, Drawing):
             return self
         turn = QUARTER_TURNS[quarters % 4]
         transform = Transform(tuple(turn @ self.transform.centre), self.transform.scale)
@@ -82,7 +83,13 @@ class Reference:
         )
 
     def __repr__(self) -> str:
-        size = f"{len(self.shape.faces)} faces" if isinstance(self.shape, Mesh) else "drawing"
+        match self.shape:
+            case Mesh():
+                size = f"{len(self.shape.faces)} faces"
+            case Points():
+                size = f"{len(self.shape)} points"
+            case Drawing():
+                size = "drawing"
         return f"Reference({self.name!r}, {size})"
 
 
@@ -90,7 +97,7 @@ class Reference:
 class Collection:
     """The references to replicate, in natural order of their names: ``len``, iteration, ``refs["name"]``.
 
-    All are meshes, or all are drawings. Raises CollectionError for a mixture.
+    All are meshes or points, or all are drawings. Raises CollectionError for a mixture.
 
     Attributes:
         references: the shapes.
@@ -112,8 +119,8 @@ class Collection:
         drawings = [reference.name for reference in self if isinstance(reference.shape, Drawing)]
         if 0 < len(drawings) < len(self):
             raise CollectionError(
-                f"{len(self) - len(drawings)} meshes and {len(drawings)} drawings ({drawings[0]}, ...) in one "
-                "collection; load one kind, for example with a pattern such as '*.svg'"
+                f"{len(self) - len(drawings)} meshes or points and {len(drawings)} drawings ({drawings[0]}, ...) in "
+                "one collection; load one kind, for example with a pattern such as '*.svg'"
             )
 
     @classmethod
@@ -152,7 +159,7 @@ class Collection:
 
     @classmethod
     def of(cls, shapes: Mapping[str, Any], *, up: str = "y", front: str | None = None) -> Collection:
-        """A collection of named shapes in memory: Mesh, Drawing, trimesh.Trimesh, or what else procedures return.
+        """A collection of named shapes in memory: Points, a point cloud, or what procedures return, such as a trimesh.
 
         ``up`` and ``front`` as for ``load``. Raises CollectionError for a shape that cannot be used.
         """
@@ -171,9 +178,9 @@ class Collection:
         return {reference.name: reference for reference in self.references}
 
     @property
-    def kind(self) -> type[Shape]:
-        """Mesh or Drawing."""
-        return type(self.references[0].shape)
+    def kind(self) -> type[Mesh] | type[Drawing]:
+        """What a procedure has to make: drawings for drawings, meshes for meshes and points."""
+        return Drawing if isinstance(self.references[0].shape, Drawing) else Mesh
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -213,18 +220,18 @@ def read_reference(source: sources.Source) -> Reference:
 
 
 def _normalised(
-    name: str, path: Path | None, shape: Shape, orientation: Orientation, notes: tuple[str, ...]
+    name: str, path: Path | None, shape: ReferenceShape, orientation: Orientation, notes: tuple[str, ...]
 ) -> Reference:
-    turned = shape.transformed(orientation.matrix) if isinstance(shape, Mesh) else shape
+    turned = shape if isinstance(shape, Drawing) else shape.transformed(orientation.matrix)
     return Reference(name, path, turned.normalised(), turned.normalisation(), orientation, notes)
 
 
 def _in_memory(name: str, value: Any, orientation: Orientation) -> Reference:
     try:
-        shape = as_shape(value)
+        shape = as_reference(value)
         shape, notes = files.sound(shape.vertices, shape.faces) if isinstance(shape, Mesh) else (shape, ())
     except TypeError as error:
-        which = f"{type(value).__name__} is no shape; give a Mesh, a trimesh, (vertices, faces) or a Drawing"
+        which = f"{type(value).__name__} is no shape; give a Mesh, a trimesh, (vertices, faces), Points or a Drawing"
         raise CollectionError(f"{name}: {which}") from error
     except ValueError as error:
         raise CollectionError(f"{name}: {error}") from error

@@ -12,10 +12,10 @@ from numba import njit
 from numpy.typing import NDArray
 from PIL import Image
 
-from shapewright.rendering import ink
+from shapewright.rendering import ink, splats
 from shapewright.rendering.cameras import THUMBNAIL, Camera
 from shapewright.rendering.raster import AMBIENT, view
-from shapewright.shapes import Drawing, Mesh, Shape
+from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape
 from shapewright.threads import in_threads
 
 SUPERSAMPLE = 3  # samples of a pixel along either side
@@ -31,19 +31,20 @@ _GREYS = 32  # fewer greys make smaller files, and nobody can tell 32 from 256 o
 _PLAIN = 150  # the grey of drawings, of 255: light enough for a tint over it to show
 
 
-def thumbnail(shape: Shape, size: int = 256, camera: Camera = THUMBNAIL) -> bytes:
-    """A picture of a shape as PNG bytes: grey and alpha, size x size pixels; a mesh as a camera sees it.
+def thumbnail(shape: ReferenceShape, size: int = 256, camera: Camera = THUMBNAIL) -> bytes:
+    """A picture of a shape as PNG bytes: grey and alpha, size x size pixels; a mesh or points as a camera sees
+    them, points as discs and without edges.
 
     The shape is normalised first, so that the whole of it is in the picture whatever its size and place.
-    Raises ValueError for a mesh without faces or of no size.
+    Raises ValueError for a mesh without faces, and for a shape of no size.
     """
-    picture = _shaded(shape, size, camera) if isinstance(shape, Mesh) else _plain(shape, size)
+    picture = _plain(shape, size) if isinstance(shape, Drawing) else _shaded(shape, size, camera)
     buffer = io.BytesIO()
     Image.fromarray(picture).save(buffer, "PNG")
     return buffer.getvalue()
 
 
-def thumbnails(shapes: Sequence[Shape], size: int = 256, threads: int | None = None) -> list[bytes]:
+def thumbnails(shapes: Sequence[ReferenceShape], size: int = 256, threads: int | None = None) -> list[bytes]:
     """``thumbnail`` of each shape, in order; the bytes do not depend on the number of threads."""
     return in_threads(lambda shape: thumbnail(shape, size), shapes, threads)
 
@@ -56,10 +57,14 @@ def _plain(drawing: Drawing, size: int) -> NDArray[np.uint8]:
     return np.stack([np.full_like(alpha, _PLAIN), alpha], axis=-1)
 
 
-def _shaded(mesh: Mesh, size: int, camera: Camera) -> NDArray[np.uint8]:
+def _shaded(shape: Mesh | Points, size: int, camera: Camera) -> NDArray[np.uint8]:
     side = size * SUPERSAMPLE
-    shade, inverse_depth = view(mesh.normalised(), camera, side)
     picture = np.empty((size, size, 2), dtype=np.uint8)
+    if isinstance(shape, Points):
+        shade, _ = splats.view(shape.normalised(), camera, side)
+        _resolve(shade, np.zeros(shade.shape, dtype=np.bool_), picture)
+        return picture
+    shade, inverse_depth = view(shape.normalised(), camera, side)
     _ink(shade, inverse_depth, 2.0 / (side * camera.focal_length), picture)
     return picture
 

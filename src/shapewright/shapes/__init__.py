@@ -1,8 +1,21 @@
-"""Shapes: a triangle mesh with labels (3D), a drawing of filled regions (2D), and their normalisation."""
+"""Shapes: a triangle mesh with labels (3D), a drawing of filled regions (2D), points; and their normalisation."""
 
 from shapewright.shapes.arrays import Bytes, Floats, Ints, Transform
 from shapewright.shapes.drawing import Drawing
 from shapewright.shapes.mesh import Mesh, concatenate
-from shapewright.shapes.shape import Shape, shape_digest
+from shapewright.shapes.points import Points
+from shapewright.shapes.shape import ReferenceShape, Shape, shape_digest
 
-__all__ = ["Bytes", "Drawing", "Floats", "Ints", "Mesh", "Shape", "Transform", "concatenate", "shape_digest"]
+__all__ = [
+    "Bytes",
+    "Drawing",
+    "Floats",
+    "Ints",
+    "Mesh",
+    "Points",
+    "ReferenceShape",
+    "Shape",
+    "Transform",
+    "concatenate",
+    "shape_digest",
+]

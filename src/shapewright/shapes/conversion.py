@@ -9,7 +9,8 @@ import numpy as np
 
 from shapewright.shapes.drawing import Drawing
 from shapewright.shapes.mesh import Mesh, concatenate
-from shapewright.shapes.shape import Shape
+from shapewright.shapes.points import Points
+from shapewright.shapes.shape import ReferenceShape, Shape
 
 TESSELLATION = 5e-4
 """Share of the diagonal by which triangles may depart from a CAD surface: a tenth of a pixel of 64."""
@@ -17,6 +18,18 @@ _ACCEPTED = (
     "a Mesh, Drawing, Solid or Sketch, a trimesh.Trimesh or Scene, (vertices, faces), a manifold3d.Manifold or "
     "CrossSection, a shapely geometry, a build123d or CadQuery object, or a list of these"
 )
+
+
+def as_reference(value: Any) -> ReferenceShape:
+    """What ``as_shape`` gives, or points: of Points, or a point cloud of Open3D or trimesh.
+
+    Raises TypeError and ValueError as ``as_shape`` does.
+    """
+    if (points := _points(value)) is None:
+        return as_shape(value)
+    if not points.extent.max() > 0.0:
+        raise ValueError("the points have no size: all lie at one place")
+    return points
 
 
 def as_shape(value: Any) -> Shape:
@@ -37,6 +50,10 @@ def as_shape(value: Any) -> Shape:
 def _convert(value: Any) -> Shape:
     if isinstance(value, Mesh | Drawing):
         return value
+    if _points(value) is not None:
+        raise TypeError(
+            f"it returned points ({_name(value)}), which have no surface; return a mesh: points can be references alone"
+        )
     if value is None:
         raise TypeError("it returned nothing (None); end the function with `return shape`")
     if isinstance(value, tuple) and len(value) == 2 and all(_is_table(item) for item in value):
@@ -69,8 +86,22 @@ def _convert(value: Any) -> Shape:
         inner = getattr(value, wrapper, None)
         if inner is not None:
             return _convert(inner() if callable(inner) and not hasattr(inner, "tessellate") else inner)
-    kind = f"{type(value).__module__}.{type(value).__qualname__}".removeprefix("builtins.")
-    raise TypeError(f"it returned {kind}; return {_ACCEPTED}")
+    raise TypeError(f"it returned {_name(value)}; return {_ACCEPTED}")
+
+
+def _name(value: Any) -> str:
+    return f"{type(value).__module__}.{type(value).__qualname__}".removeprefix("builtins.")
+
+
+def _points(value: Any) -> Points | None:
+    """The points of a value that holds nothing else; None for any other."""
+    if isinstance(value, Points):
+        return value
+    if hasattr(value, "points") and callable(getattr(value, "has_normals", None)):  # Open3D's PointCloud
+        return Points(np.asarray(value.points), np.asarray(value.normals) if value.has_normals() else None)
+    if type(value).__name__ == "PointCloud" and hasattr(value, "vertices"):  # trimesh's
+        return Points(np.asarray(value.vertices))
+    return None
 
 
 def _is_table(item: Any) -> bool:

@@ -1,4 +1,4 @@
-"""A shape is a mesh or a drawing."""
+"""A shape is a mesh or a drawing; a reference may be points as well."""
 
 from __future__ import annotations
 
@@ -8,14 +8,22 @@ import numpy as np
 
 from shapewright.shapes.drawing import Drawing
 from shapewright.shapes.mesh import Mesh
+from shapewright.shapes.points import Points
 
 Shape = Mesh | Drawing
+"""What procedures make."""
+ReferenceShape = Mesh | Drawing | Points
+"""What references are."""
 
 
-def shape_digest(shape: Shape) -> str:
-    """A key for the geometry alone: equal vertices and faces, or equal drawings, have equal digests."""
+def shape_digest(shape: ReferenceShape) -> str:
+    """A key for the geometry alone: of vertices and faces, of a drawing, or of points with what is known of each."""
     if isinstance(shape, Drawing):
         content = shape.geometry.wkb
+    elif isinstance(shape, Points):
+        tables = {"normals": shape.normals, "seen from": shape.seen_from}
+        known = b"".join(name.encode() + rows.tobytes() for name, rows in tables.items() if rows is not None)
+        content = b"points" + shape.positions.tobytes() + known
     else:
         content = np.int64(len(shape.vertices)).tobytes() + shape.vertices.tobytes() + shape.faces.tobytes()
     return hashlib.blake2b(content, digest_size=16).hexdigest()

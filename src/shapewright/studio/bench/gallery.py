@@ -9,7 +9,7 @@ from typing import Generic, TypeVar
 
 from shapewright.references.collection import Reference, read_reference
 from shapewright.rendering.thumbnails import thumbnail
-from shapewright.shapes import Mesh, Shape
+from shapewright.shapes import Mesh, Points, ReferenceShape
 from shapewright.storage import remove_leftovers, whole_file
 from shapewright.studio.project.listing import PICTURE, PICTURES, Listing, kept_picture
 
@@ -78,8 +78,14 @@ def in_turn(slugs: Iterable[str], first: Callable[[], list[str]]) -> Iterator[st
         yield slug
 
 
-def shape_bytes(shape: Shape | None) -> int:
+def shape_bytes(shape: ReferenceShape | None) -> int:
     """About what a shape takes in memory, with what is made of it."""
     if shape is None:
         return 0
-    return 4 * (shape.vertices.nbytes + shape.faces.nbytes) if isinstance(shape, Mesh) else 2**16
+    match shape:
+        case Mesh():
+            return 4 * (shape.vertices.nbytes + shape.faces.nbytes)
+        case Points():
+            return 8 * shape.positions.nbytes
+        case _:
+            return 2**16

@@ -17,9 +17,10 @@ from shapewright.judging.judge import target_of
 from shapewright.judging.target import Target
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.rendering.cameras import THUMBNAIL
+from shapewright.rendering.splats import discs
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Mesh, Shape
+from shapewright.shapes import Drawing, Mesh, Points, Shape
 from shapewright.studio.bench import messages, shape_messages
 from shapewright.studio.bench.gallery import Gallery, Shelf, in_turn, shape_bytes
 from shapewright.studio.bench.residual_colours import ResidualColours
@@ -240,6 +241,8 @@ class Bench:
                 payload = thumbnail(shape, request.size, camera)
             elif isinstance(shape, Mesh):
                 payload = shape_messages.mesh_message(shape, id=0, slug=request.slug, shape="reference")
+            elif isinstance(shape, Points):
+                payload = shape_messages.mesh_message(discs(shape), id=0, slug=request.slug, shape="reference")
             else:
                 message = shape_messages.drawing_message(shape, None, id=0, slug=request.slug, shape="reference")
         except (KeyError, UnreadableError, ValueError, Broken) as error:
