@@ -9,8 +9,6 @@ import time
 from collections.abc import Callable, Iterator
 from types import FrameType
 
-COMPILING = "compiling"
-"""Message of a worker to its parent while numba compiles: this time does not count."""
 MOST = 120.0
 """Seconds from the start in which compiling does not count, at most."""
 _TICKS = 10

@@ -1,4 +1,4 @@
-"""The outcome of one attempt at a shape: the shape, or why it failed; and what a shape may cost."""
+"""The outcome of one attempt at a shape: the shape, or why it failed."""
 
 from __future__ import annotations
 
@@ -9,22 +9,10 @@ from typing import Literal, get_args
 
 from shapewright.parameters import Parameters
 from shapewright.procedures import Place, ProcedureError
+from shapewright.processes import Loss
 from shapewright.shapes import Shape
 
 FailureKind = Literal["infeasible", "raised", "no shape", "time", "memory", "crash"]
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What one shape may cost.
-
-    Attributes:
-        seconds: wall time.
-        memory_mb: megabytes of a worker's address space, beyond what it has at its start (POSIX).
-    """
-
-    seconds: float = 10.0
-    memory_mb: int = 2048
 
 
 @dataclass(frozen=True)
@@ -51,6 +39,11 @@ class Failure:
     def error(self) -> ProcedureError:
         """The same, of a procedure that could not be loaded."""
         return ProcedureError(self.message, self.place, "time" if self.kind == "time" else "broken")
+
+    @classmethod
+    def of(cls, loss: Loss) -> Failure:
+        """The same, of a shape that was lost with its process."""
+        return cls(loss.kind, loss.message)
 
     @classmethod
     def parse(cls, text: str) -> Failure:

@@ -11,14 +11,15 @@ import queue
 import sys
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
 
 import cloudpickle
 
-from shapewright.building.outcomes import Build, Failure, Limits, commonest_place, describe_failures
+from shapewright.building.outcomes import Build, Failure, commonest_place, describe_failures
 from shapewright.building.process import WorkerProcess
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError
+from shapewright.processes import Limits
+from shapewright.processes.pool import Pool
 from shapewright.settings import Settings
 from shapewright.threads import cores
 
@@ -39,7 +40,7 @@ class Workers:
         self.count = count or cores()
         self.limits = limits or Limits()
         self._payload = _payload(procedure)
-        self._idle: list[WorkerProcess] = []
+        self._pool = Pool(lambda: WorkerProcess(self._payload, self.limits), self.count)
 
     @classmethod
     def of(cls, procedure: Procedure, settings: Settings) -> Workers:
@@ -50,12 +51,7 @@ class Workers:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._stop()
-
-    def _stop(self) -> None:
-        for worker in self._idle:
-            worker.stop()
-        self._idle.clear()
+        self._pool.close()
 
     def turn_to(self, procedure: Procedure) -> None:
         """Build shapes of another procedure from now on, in the same processes: starting a process takes far longer.
@@ -64,10 +60,10 @@ class Workers:
         """
         self._payload, self.procedure = _payload(procedure), procedure
         try:
-            for worker in self._idle:
+            for worker in self._pool.idle:
                 worker.load(self._payload)
         except ProcedureError:
-            self._stop()
+            self._pool.close()
             raise
 
     def build(
@@ -103,37 +99,15 @@ class Workers:
         tasks: queue.SimpleQueue[range] = queue.SimpleQueue()
         for piece in slices:
             tasks.put(piece)
-        stop = threading.Event()
 
-        def serve() -> None:
-            worker: WorkerProcess | None = None
-            while not stop.is_set():
-                try:
-                    piece = tasks.get_nowait()
-                except queue.Empty:
-                    break
-                worker = self._serve(worker or self._take(), parameters, piece, results, tasks, stop)
-            if worker:
-                self._idle.append(worker)
+        def serve(worker: WorkerProcess, piece: range, stop: threading.Event) -> WorkerProcess | None:
+            return self._serve(worker, parameters, piece, results, tasks, stop)
 
-        with ThreadPoolExecutor(self.count) as threads:
-            waiting = {threads.submit(serve) for _ in range(min(self.count, len(slices)))}
-            try:
-                while waiting:
-                    done, waiting = wait(waiting, timeout=0.02)
-                    for server in done:
-                        server.result()
-                    if progress:
-                        progress(sum(result is not None for result in results), len(results))
-            except BaseException:
-                stop.set()
-                raise
+        def tick() -> None:
+            if progress:
+                progress(sum(result is not None for result in results), len(results))
 
-    def _take(self) -> WorkerProcess:
-        try:
-            return self._idle.pop()
-        except IndexError:
-            return WorkerProcess(self._payload, self.limits)
+        self._pool.run(tasks, serve, tick)
 
     def _serve(
         self,

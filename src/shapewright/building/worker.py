@@ -5,17 +5,19 @@ from __future__ import annotations
 import contextlib
 import os
 import pickle
-import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
-from multiprocessing.connection import Client, Connection
-from pathlib import Path
+from multiprocessing.connection import Connection
 
-from shapewright.building.clock import COMPILING, TimeLimit, time_limit
-from shapewright.building.outcomes import Build, Failure, Limits
+from shapewright.building.clock import TimeLimit, time_limit
+from shapewright.building.outcomes import Build, Failure
 from shapewright.parameters import Parameters
 from shapewright.procedures import Infeasible, Procedure, ProcedureError, describe, load_procedure, place_of
+from shapewright.processes import Limits
+from shapewright.processes.limits import limit_memory, too_much
+from shapewright.processes.program import attend
+from shapewright.processes.worker import AT_WORK
 
 _ANSWER_WITHIN = 0.25
 """Share of the time limit after which a worker answers with the shapes it has, so that its parent notices a hang."""
@@ -38,7 +40,7 @@ def serve(connection: Connection) -> None:
                 procedure = _received(requests)
                 connection.send(_READY)
             else:
-                connection.send(_build_some(procedure, requests, limits, lambda: connection.send(COMPILING)))
+                connection.send(_build_some(procedure, requests, limits, lambda: connection.send(AT_WORK)))
     except ProcedureError as error:  # of a file that does not load: the parent ends this process
         connection.send(Failure("raised", error.message, error.place))
 
@@ -98,31 +100,10 @@ def build(procedure: Procedure, parameters: Parameters, limits: Limits) -> Build
     except ProcedureError as error:
         failure = Failure("no shape", error.message, error.place)
     except MemoryError:
-        failure = Failure("memory", f"it needed more than {limits.memory_mb} MB of memory")
+        failure = Failure.of(too_much(limits))
     except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever the author's code raises is a result
         failure = Failure("raised", describe(error), place_of(error, procedure.path))
     return Build(parameters, shape, failure, time.perf_counter() - started)
-
-
-def limit_memory(megabytes: int) -> None:
-    """Cap the address space at what is mapped now plus the limit; on systems without rlimits there is no cap."""
-    try:
-        import resource
-    except ImportError:
-        return
-    mapped = 0
-    with contextlib.suppress(OSError), Path("/proc/self/statm").open() as statm:
-        mapped = int(statm.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
-    with contextlib.suppress(ValueError, OSError):
-        resource.setrlimit(resource.RLIMIT_AS, (mapped + megabytes * 2**20, resource.RLIM_INFINITY))
-
-
-def attend(serve: Callable[[Connection], None]) -> None:
-    """Connect to the parent, by the address in the arguments and the key on standard input, and serve it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    key = sys.stdin.buffer.read(32)
-    with contextlib.suppress(EOFError, ConnectionError), Client(sys.argv[1], authkey=key) as connection:
-        serve(connection)
 
 
 if __name__ == "__main__":

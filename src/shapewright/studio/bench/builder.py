@@ -15,10 +15,11 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from shapewright.building.clock import TimeLimit, time_limit
-from shapewright.building.outcomes import Build, Failure, Limits
-from shapewright.building.worker import build, limit_memory
+from shapewright.building.outcomes import Build, Failure
+from shapewright.building.worker import build
 from shapewright.parameters import Parameters, to_record
 from shapewright.procedures import Procedure, ProcedureError, describe, load_procedure, place_of
+from shapewright.processes.limits import Limits, limit_memory
 from shapewright.shapes import Mesh
 from shapewright.studio.bench.workshop import LOADING_SECONDS, Built, Version
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame

@@ -6,7 +6,7 @@ from typing import Any, Literal, TypeAlias
 
 from msgspec import Struct
 
-from shapewright.building.outcomes import Limits
+from shapewright.processes import Limits
 from shapewright.settings import Align
 from shapewright.studio.project.listing import Origin
 from shapewright.studio.wire.answers import DrawingMessage, FailedMessage, VerdictMessage

@@ -11,10 +11,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from shapewright.building.outcomes import Build, Failure, Limits
-from shapewright.building.process import SINGLE_THREADED, crash, no_answer, too_long
+from shapewright.building.outcomes import Build, Failure
+from shapewright.building.process import no_answer
 from shapewright.parameters import Parameters, Value
 from shapewright.procedures import ProcedureError
+from shapewright.processes.limits import Limits, crash, too_long
+from shapewright.processes.worker import SINGLE_THREADED
 from shapewright.studio.wire.child import Child, Frame
 from shapewright.studio.wire.collection import Parameter
 from shapewright.studio.wire.problems import Problem, of_error, syntax_problem
@@ -96,7 +98,7 @@ class Workshop:
         assert self._child is not None
         self._child.send("build", pickle.dumps(dict(values)))
         patience = 1.25 * self._limits.seconds + 0.5
-        answer = self._wait(patience, patience) or too_long(self._limits)
+        answer = self._wait(patience, patience) or Failure.of(too_long(self._limits))
         if isinstance(answer, Built):
             return answer
         self._stop()
@@ -131,7 +133,7 @@ class Workshop:
                 patience -= _STEP
                 continue
             if frame is None:
-                return crash(self._child.process)
+                return Failure.of(crash(self._child.process))
             if frame[0] == "answer":
                 return pickle.loads(frame[1])
             patience = again

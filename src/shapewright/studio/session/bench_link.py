@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 from msgspec.structs import replace
 
-from shapewright.building.outcomes import Limits
+from shapewright.processes import Limits
 from shapewright.settings import Settings
 from shapewright.studio.bench.client import BenchProcess
 from shapewright.studio.bench.messages import First, Live, LiveMessage, Load, News, Pictures, References, SweepOrder
