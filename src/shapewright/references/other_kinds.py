@@ -14,7 +14,6 @@ _UNPACK = "unpack it"
 _KINDS = {
     ("FBX", _BLENDER): "fbx",
     ("a Blender file", _BLENDER): "blend",
-    ("Collada", _BLENDER): "dae",
     ("USD", _BLENDER): "usd usda usdc usdz",
     ("Alembic", _BLENDER): "abc",
     ("X3D", _BLENDER): "x3d x3db x3dv",

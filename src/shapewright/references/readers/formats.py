@@ -9,6 +9,7 @@ import numpy as np
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.other_kinds import refusal
+from shapewright.references.readers.collada.scene import read_collada
 from shapewright.references.readers.contents import Contents, held
 from shapewright.references.readers.gltf.scene import read_gltf
 from shapewright.references.readers.obj import read_obj
@@ -33,13 +34,15 @@ _SCENES: dict[str, Callable[[Path, bytes], Scene]] = {
     ".glb": read_gltf,
     ".gltf": read_gltf,
     ".3mf": read_3mf,
+    ".dae": read_collada,
+    ".zae": read_collada,
 }
 _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {
     ".svg": read_svg,
     ".svgz": read_svg,
     **dict.fromkeys(PICTURES, read_picture),
 }
-MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF")
+MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF", "DAE", "ZAE")
 """Formats of meshes that are read, as people write them. The extension of a file is the name in small letters."""
 MESHES = tuple(f".{name.lower()}" for name in MESH_FORMATS)
 EXTENSIONS = tuple(sorted((*MESHES, *_DRAWINGS)))

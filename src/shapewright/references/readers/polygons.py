@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,6 +54,17 @@ def triangulate(polygons: Polygons) -> Ints:
     return faces
 
 
+def triangulate_with_holes(vertices: Floats, loops: Sequence[Ints]) -> Ints:
+    """Faces (F, 3) of one polygon with holes: its rim (n,) and then its holes, in either direction, as vertices."""
+    rim, *holes = loops
+    if len(rim) < 3:
+        return np.empty((0, 3), dtype=np.int64)
+    plane = _plane(_normals(vertices[rim][None])[0])
+    ways = [np.sign(_area(vertices[hole][:, plane])) for hole in holes]
+    turned = [rim, *(hole[::-1] if way > 0 else hole for hole, way in zip(holes, ways, strict=True) if len(hole) > 2)]
+    return np.concatenate(turned)[_clip([vertices[loop] for loop in turned], plane)]
+
+
 def check_indices(corners: Ints, vertex_count: int) -> None:
     """Raise UnreadableError where a corner points outside the vertices."""
     if len(corners) and (corners.min() < 0 or corners.max() >= vertex_count):
@@ -78,11 +90,24 @@ def _normals(loops: Floats) -> Floats:
 
 def _clip_ears(loop: Floats) -> Ints:
     """Triangles (n - 2, 3) that fill a polygon (n, 3), as indices of its corners."""
+    return _clip([loop], _plane(_normals(loop[None])[0]))
+
+
+def _clip(loops: Sequence[Floats], plane: list[int]) -> Ints:
+    """Triangles (T, 3) that fill a polygon and leave its holes open, as indices of all corners in their order."""
     from manifold3d import triangulate as clip
 
-    normal = _normals(loop[None])[0]
+    return np.asarray(clip([np.ascontiguousarray(loop[:, plane]) for loop in loops]), dtype=np.int64)
+
+
+def _plane(normal: Floats) -> list[int]:
+    """The two axes of the plane that a polygon of this normal is seen in, so that it turns left there."""
     across = int(np.argmax(np.abs(normal)))
     plane = [(across + 1) % 3, (across + 2) % 3]
-    if normal[across] < 0.0:
-        plane.reverse()
-    return np.asarray(clip([np.ascontiguousarray(loop[:, plane])]), dtype=np.int64)
+    return plane[::-1] if normal[across] < 0.0 else plane
+
+
+def _area(loop: Floats) -> float:
+    """Of a polygon (n, 2), times two; negative where it turns right."""
+    x, y = loop.T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1))

@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import io
 import posixpath
 import zipfile
-import zlib
 from dataclasses import dataclass
 from urllib.parse import unquote
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.text import utf8
 from shapewright.references.readers.threemf.markup import outline
+from shapewright.references.readers.zips import opened, unpacked
 
 _MODEL = "/3dmodel"
 """How the types of the relationships to models end, in the format and in its draft."""
 _USUAL = "/3D/3dmodel.model"
-_RATIO, _SLACK = 200, 2**26
-"""A package may unpack to so many times its bytes, and as many bytes more. The text of models shrinks to a twentieth,
-that of the most regular ones to a hundredth; a bomb to a thousandth."""
-_LARGEST = 2**30
-"""Bytes of a part: ten million triangles."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,24 +38,13 @@ class Package:
         entry = self.entries.get(part_key(name)) or self.entries.get(part_key(unquote(name)))
         if entry is None:
             raise UnreadableError(f"it needs its part {name[:200]}, which is missing")
-        if entry.file_size > _LARGEST:
-            raise UnreadableError(f"its part {name[:200]} has {entry.file_size:,} bytes, more than are read")
-        try:
-            return self.archive.read(entry)
-        except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError, OSError) as error:
-            raise UnreadableError(f"broken: its part {name[:200]} cannot be unpacked ({error})") from error
+        return unpacked(self.archive, entry, name)
 
 
 def unpack(data: bytes) -> Package:
     """The package in a file's bytes. Raises UnreadableError for what is no 3MF, and for a ZIP bomb."""
-    try:
-        archive = zipfile.ZipFile(io.BytesIO(data))
-    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
-        raise UnreadableError(f"broken: no ZIP archive, or cut short ({error})") from error
+    archive = opened(data)
     entries = {part_key(entry.filename): entry for entry in archive.infolist()}
-    size = sum(entry.file_size for entry in archive.infolist())
-    if size > _RATIO * len(data) + _SLACK:
-        raise UnreadableError(f"a ZIP bomb: {len(data):,} bytes that unpack to {size:,}")
     models = [name for name in entries if name.endswith(".model")]
     package = Package(archive, entries, _USUAL)
     targets = _targets(package.read("/_rels/.rels")) if "/_rels/.rels" in entries else []

@@ -1,0 +1,1 @@
+"""COLLADA: the triangles that its scene shows."""
