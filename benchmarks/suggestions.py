@@ -7,10 +7,10 @@
 ``rules``: for each rule, shapes of the full procedure whose parameters the one without the rule cannot take; all others
 it replicates exactly. Lost are those that a long search, from what it can take over of their parameters, does not
 replicate either: so many are searched, a dozen at a time, that --count are lost. Restored are those of them that a
-suggestion makes compatible. The network is left out. With --json FILE what was measured before is not measured again,
-but for rules named by --only. ``steps``: fit, apply the first suggestion, and again; further collections may follow,
-and ``--against FILE`` names a procedure to compare with. Options: --seed, --workers, --out folder for pictures and
-snippets, --fast for a smaller network.
+suggestion makes replicated, by --judge (fidelity, or paper). The network is left out. With --json FILE what was
+measured before is not measured again, but for rules named by --only. ``steps``: fit, apply the first suggestion, and
+again; further collections may follow, and ``--against FILE`` names a procedure to compare with. Options: --seed,
+--workers, --out folder for pictures and snippets, --fast for a smaller network.
 """
 
 import argparse
@@ -193,7 +193,7 @@ def rules(arguments: argparse.Namespace) -> None:
 
 def rule(name: str, example: Path, edit: Edit, arguments: argparse.Namespace) -> dict[str, Any]:
     """One rule removed: references lost without it, and what each suggestion restores."""
-    settings = sw.Settings(seed=arguments.seed, workers=arguments.workers, judge="paper")
+    settings = sw.Settings(seed=arguments.seed, workers=arguments.workers, judge=arguments.judge)
     before = cpu_seconds()
     with tempfile.TemporaryDirectory() as folder:
         procedure = reduced(example, edit, Path(folder))
@@ -267,6 +267,7 @@ def main() -> None:
     one.add_argument("--only")
     one.add_argument("--count", type=int, default=6)
     one.add_argument("--json", type=Path)
+    one.add_argument("--judge", choices=("fidelity", "paper"), default="fidelity")
     one.add_argument("--examples", type=Path, default=EXAMPLES)
     one.set_defaults(run=rules)
     two = commands.add_parser("steps")

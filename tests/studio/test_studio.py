@@ -562,6 +562,23 @@ def test_explanation_passes_through(fitted: Studio) -> None:
     fitted.send("POST", "/api/suggestions/7/apply", {"to": "copy"}, 404)
 
 
+def test_a_suggestion_joins_what_was_written_since(fitted: Studio) -> None:
+    run = fitted.folder / "runs" / fitted.get("/api/state")["collection"]["run"]
+    parameter = next(p for p in fitted.get("/api/state")["procedure"]["parameters"] if p["kind"] == "scalar")
+    change = {
+        "procedure": "table",
+        "limits": [{"parameter": parameter["name"], "low": None, "high": "9", "steps": None}],
+    }
+    suggestion = {"kind": "range", "title": "Widen", "source": PROCEDURE, "references": [], "change": change}
+    (run / "explanation.json").write_text(json.dumps({"references": {}, "suggestions": [suggestion]}))
+    (fitted.folder / "procedure.py").write_text("# my own line\n" + PROCEDURE)
+    written = fitted.send("POST", "/api/suggestions/0/apply", {"to": "procedure"})
+    text = (fitted.folder / "procedure.py").read_text()
+    assert text.startswith("# my own line") and f"{9}" in text and written["undo"].startswith("# my own line")
+    refused = fitted.send("POST", "/api/suggestions/0/apply", {"to": "procedure"}, 409)
+    assert "you have edited" in refused["error"] and (fitted.folder / "procedure.py").read_text() == text
+
+
 def test_memory_beside_the_fit_and_nothing_heavy_in_the_server(running: Studio) -> None:
     """Server, bench and builder together, counted so that shared pages count once."""
     loaded = Path(f"/proc/{running.process.pid}/maps")

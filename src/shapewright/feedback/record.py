@@ -131,7 +131,8 @@ def _suggestion(suggestion: Suggestion, source: str) -> dict[str, Any]:
     picture = base64.b64encode(suggestion.picture).decode("ascii")
     own = {"picture": picture, "references": list(suggestion.references), "tried": dict(suggestion.tried)}
     diff = [vars(line) for line in changed(source, suggestion.source)] if source and suggestion.source else []
-    return {**vars(suggestion), **own, "gain": suggestion.gain, "diff": diff}
+    change = suggestion.change.record if suggestion.change else None
+    return {**vars(suggestion), **own, "gain": suggestion.gain, "diff": diff, "change": change}
 
 
 def _tried(tried: Tried) -> dict[str, Any]:

@@ -18,8 +18,10 @@ from shapewright.feedback.ideas.proposals import proposals
 from shapewright.feedback.ideas.rule_hypotheses import Study, rule_hypotheses
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.trials.cards import Example, card
-from shapewright.feedback.trials.selection import Change, selected
+from shapewright.feedback.trials.change import Change
+from shapewright.feedback.trials.selection import selected
 from shapewright.feedback.trials.tried import Tried
+from shapewright.feedback.writing.change import FileChange
 from shapewright.feedback.writing.edit import parameter_line
 from shapewright.feedback.writing.source import can_edit, snippet
 from shapewright.judging.judge import Judge
@@ -58,6 +60,7 @@ class Suggestion:
     references: tuple[str, ...]  # names of those that become replicated
     nearer: tuple[str, ...] = ()  # names of others that come much nearer
     tried: Mapping[str, Any] = field(default_factory=dict)  # what was measured
+    change: FileChange | None = None  # the same as facts, for a file that has been edited since
 
     @property
     def gain(self) -> int:
@@ -175,6 +178,7 @@ def _suggestion(change: Change, procedure: Procedure, cases: Mapping[int, Case],
             "after": float(np.mean([outcome.replicas[row].distance for row in change.helped])),
             "parameters": {names[row]: outcome.parameters[row] for row in change.helped},
         },
+        change.edit,
     )
 
 

@@ -93,6 +93,9 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
             <span class="soft">{plural(references.length, "reference")}</span>
           </div>
         )}
+        {procedure.value.stale && (
+          <p class="soft">Tried on the text of the last fit. Applying it keeps what you have written since.</p>
+        )}
         <div class="row">
           {snippet && (
             <Button icon="copy" onClick={() => void copy(snippet, "the snippet")}>

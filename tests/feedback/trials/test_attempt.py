@@ -10,7 +10,6 @@ from shapewright.feedback.trials.attempt import (
     builds_the_same,
     nearest_starts,
     outcome_of,
-    stays_sound,
     turned_to,
     with_borrowed_choices,
 )
@@ -158,21 +157,3 @@ def test_replicas_that_fall_apart_do_not_count():
     whole, apart = box(1.0).mesh(), box(1.0).array(2, (3, 0, 0)).mesh()
     outcome = Outcome.of(Replica(row, {}, mesh, 0.1, apart=0.5) for row, mesh in enumerate((whole, apart, apart)))
     assert outcome.whole({0: 1, 1: 1, 2: 2}).replicated == (0, 2)
-
-
-def test_a_change_that_makes_sound_shapes_unsound_is_told(post, crew):
-    through = """
-def add(shape):
-    mesh = shape.mesh()
-    return (
-        [*mesh.vertices, *(mesh.vertices * 0.5 + (0.25, 0, 0))],
-        [*mesh.faces, *(mesh.faces + len(mesh.vertices))],
-    )
-"""
-    cut = POST.replace("wide: bool = False", "wide: bool = False, cut: bool = False")
-    cut = cut.replace(
-        "return box((0.5, height, 0.2 if wide else 0.1))", "shape = box((0.5, height, 0.1))\n    return {}"
-    )
-    for call, sound in (("add(shape) if cut else shape", False), ("shape | shape if cut else shape", True)):
-        with turned_to(cut.format(call) + through, crew) as changed:
-            assert stays_sound(changed, post.space, "cut", seed=0) is sound

@@ -8,7 +8,7 @@ from shapewright.building import Workers
 from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.proposal import Misfit, Proposal
 from shapewright.feedback.trials.selection import selected
-from shapewright.feedback.writing.edit import with_range
+from shapewright.feedback.writing.change import FileChange, NewLimits
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import box
 
@@ -35,7 +35,8 @@ def longer(name, high, rows):
     return Proposal(
         "range",
         f"A wider Range of {name}",
-        lambda chosen: with_range(POST, "post", name, None, f"{chosen[name][1]:g}", None),
+        POST,
+        lambda chosen: FileChange("post", (NewLimits(name, None, f"{chosen[name][1]:g}", None),)),
         ranges,
         {row: {} for row in rows},
         1.0,

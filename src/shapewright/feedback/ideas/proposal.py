@@ -10,6 +10,7 @@ from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
 from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.hypothesis import Hypothesis
 from shapewright.feedback.parts.attachment import separate
+from shapewright.feedback.writing.change import FileChange
 from shapewright.feedback.writing.rule_code import RuleDraft
 from shapewright.parameters import End, Parameters
 from shapewright.shapes import Mesh
@@ -58,7 +59,8 @@ class Proposal:
 
     kind: str  # see ``suggestions.Suggestion``
     title: str  # what changes
-    write: Callable[[Ranges], str]  # makes the changed source, given Ranges
+    source: str  # of the author's file, without the change
+    change: Callable[[Ranges], FileChange]  # of the file, given Ranges
     ranges: Ranges  # wide ones to begin with
     starts: Mapping[int, Parameters]  # values of the new parameters by row of a misfit; others start at the medians
     worth: float  # how many references it may help, roughly
@@ -72,6 +74,10 @@ class Proposal:
         middle: Parameters = {q.name: as_value(q.whole, self.ranges[q.name][2]) for q in self.rule.quantities}
         flag: Parameters = {self.flag: self._on} if self.flag else {}
         return [{**misfit.covering.parameters, **middle, **flag, **self.starts.get(misfit.row, {})}]
+
+    def write(self, ranges: Ranges) -> str:
+        """The changed source with these Ranges. Raises EditError."""
+        return self.change(ranges).written(self.source)
 
     def uses(self, parameters: Parameters) -> bool:
         """Whether parameters of the changed procedure make something that it did not make before."""

@@ -17,7 +17,7 @@ from shapewright.feedback.parts.lack import overlap
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import WHOLE, Frames
 from shapewright.feedback.parts.supports import bounds_of
-from shapewright.feedback.writing.edit import with_rule
+from shapewright.feedback.writing.change import FileChange
 from shapewright.feedback.writing.piece_code import Quantity, noun
 from shapewright.feedback.writing.rule_code import RuleDraft, addition, drawing_in, removal, splaying
 from shapewright.feedback.writing.source import free_name
@@ -192,7 +192,7 @@ def _proposal(
         saved = 1.0 - hypothesis.cost / hypothesis.before
         worth += float(np.clip(max(1.5 - hypothesis.cost / misfit.goal, saved), 0.0, 1.0))
 
-    def write(chosen: Ranges) -> str:
-        return with_rule(source, procedure, rule.spelled(chosen))
+    def change(chosen: Ranges) -> FileChange:
+        return FileChange(procedure, rule=rule.spelled(chosen))
 
-    return Proposal(kind, title, write, ranges, starts, worth + 0.05 * pieces, rule)
+    return Proposal(kind, title, source, change, ranges, starts, worth + 0.05 * pieces, rule)

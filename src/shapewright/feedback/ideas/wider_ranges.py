@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from shapewright.feedback.ideas.proposal import Interval, Misfit, Proposal, Ranges, listed
-from shapewright.feedback.writing.edit import with_range
+from shapewright.feedback.writing.change import FileChange, NewLimits
 from shapewright.feedback.writing.piece_code import number
 from shapewright.feedback.writing.source import EditError
 from shapewright.parameters import Integer, Parameter, Parameters, ParameterSpace, Scalar
@@ -28,14 +28,14 @@ def wider_ranges(source: str, procedure: str, space: ParameterSpace, misfits: Se
     for chosen in dict.fromkeys([*((end,) for end in common), tuple(common)]) if common else ():
         names = tuple(dict.fromkeys(name for name, _ in chosen))
         wide = {name: _longer(space[name], {side for other, side in chosen if other == name}) for name in names}
-        write = partial(_widened, source, procedure, space)
+        change = partial(_widened, procedure, space)
         try:
-            write(wide)
+            change(wide).written(source)
         except EditError:
             continue
         starts: dict[int, Parameters] = {row: {} for row, its in pressed.items() if its & set(chosen)}
         worth = _HELPED * len(starts) - _PRICE * len(chosen)
-        yield Proposal("range", f"A wider Range of {listed(names)}", write, wide, starts, worth, ends=chosen)
+        yield Proposal("range", f"A wider Range of {listed(names)}", source, change, wide, starts, worth, ends=chosen)
 
 
 def _can_be_longer(parameter: Parameter, side: str) -> bool:
@@ -45,17 +45,17 @@ def _can_be_longer(parameter: Parameter, side: str) -> bool:
     return low < parameter.low or high > parameter.high
 
 
-def _widened(source: str, procedure: str, space: ParameterSpace, ranges: Ranges) -> str:
-    """The source with these Ranges."""
+def _widened(procedure: str, space: ParameterSpace, ranges: Ranges) -> FileChange:
+    limits = []
     for name, (low, high, _) in ranges.items():
         parameter = space[name]
         if isinstance(parameter, Integer):
-            source = with_range(source, procedure, name, str(round(low)), str(round(high)), None)
+            limits.append(NewLimits(name, str(round(low)), str(round(high)), None))
         elif isinstance(parameter, Scalar):
             new = number(low) if low < parameter.low else None, number(high) if high > parameter.high else None
-            limits = (float(new[0] or parameter.low), float(new[1] or parameter.high))
-            source = with_range(source, procedure, name, *new, _steps(parameter, *limits))
-    return source
+            ends = (float(new[0] or parameter.low), float(new[1] or parameter.high))
+            limits.append(NewLimits(name, *new, _steps(parameter, *ends)))
+    return FileChange(procedure, tuple(limits))
 
 
 def _steps(parameter: Scalar, low: float, high: float) -> str | None:

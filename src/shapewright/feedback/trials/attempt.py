@@ -36,7 +36,6 @@ OTHER_CHOICES = Budget((Scan(6), Probe(2), *(Step(1, scatter=6),) * 6), patience
 """From several combinations of choices. All four were chosen on seed 0 of ``benchmarks/suggestions.py rules``."""
 ENOUGH = 0.88
 """Of the goal, where a search ends: its costs are upper bounds of what is judged."""
-_DRAWN = 16  # shapes that tell whether a change keeps a procedure sound
 _UNLIKE = 0.1  # probability of other choices than those at the start
 _LENDERS = 3  # replicated references with different choices, the nearest of which others borrow from
 _SAME = 1e-6  # relative difference of bounds and areas up to which two shapes are one
@@ -158,27 +157,13 @@ def _mixed(space: ParameterSpace, own: Parameters, other: Parameters) -> Iterato
 
 
 def builds_the_same(crew: Workers, replicas: Sequence[Replica]) -> bool:
-    """Whether the procedure still builds these shapes for these parameters: the same bounds, and as much surface."""
+    """Whether the procedure still builds these shapes for these parameters."""
     builds = crew.build([crew.procedure.space.carry(replica.parameters) for replica in replicas])
-    for build, replica in zip(builds, replicas, strict=True):
-        mesh = replica.mesh
-        if not isinstance(build.shape, Mesh):
-            return False
-        apart = np.abs(build.shape.bounds - mesh.bounds).max() / float(mesh.extent.max())
-        if max(apart, abs(area(build.shape) - area(mesh)) / area(mesh)) > _SAME:
-            return False
-    return True
+    pairs = zip(builds, replicas, strict=True)
+    return all(isinstance(build.shape, Mesh) and same(replica.mesh, build.shape) for build, replica in pairs)
 
 
-def stays_sound(crew: Workers, before: ParameterSpace, flag: str | None, seed: int) -> bool:
-    """Whether shapes of a changed procedure are as sound as those that it made before the change.
-
-    before: its space without the change. flag: the binary that switches the change on, None where it is always on.
-    """
-    space = crew.procedure.space
-    drawn = space.sample(_DRAWN, seed)
-    changed = [space.canonical({**values, flag: not space.defaults[flag]} if flag else values) for values in drawn]
-    new = [build.shape for build in crew.build(changed)]
-    old = [build.shape for build in crew.build([space.carry(before.carry(values)) for values in drawn])]
-    unsound = [sum(not (isinstance(s, Mesh) and s.soundness().sound) for s in shapes) for shapes in (new, old)]
-    return unsound[0] <= unsound[1]
+def same(mesh: Mesh, other: Mesh) -> bool:
+    """Whether two shapes have the same bounds, and as much surface."""
+    apart = np.abs(other.bounds - mesh.bounds).max() / float(mesh.extent.max())
+    return bool(max(apart, abs(area(other) - area(mesh)) / area(mesh)) <= _SAME)

@@ -9,14 +9,12 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from shapewright.building import Workers
 from shapewright.feedback.case import Replica
-from shapewright.feedback.ideas.needed_ranges import narrowed
-from shapewright.feedback.ideas.proposal import Misfit, Proposal, Ranges
+from shapewright.feedback.ideas.proposal import Misfit, Proposal
 from shapewright.feedback.trials.attempt import (
     BRIEF,
     ENOUGH,
@@ -26,16 +24,16 @@ from shapewright.feedback.trials.attempt import (
     builds_the_same,
     nearest_starts,
     outcome_of,
-    stays_sound,
     turned_to,
     with_borrowed_choices,
 )
+from shapewright.feedback.trials.change import Change, Trials, change_of, way, worth_showing
 from shapewright.feedback.trials.outcome import PROMISING, Outcome
+from shapewright.feedback.trials.random_shapes import RandomShapes
 from shapewright.feedback.trials.tried import Tried
-from shapewright.feedback.writing.piece_code import number
 from shapewright.feedback.writing.source import EditError
 from shapewright.judging.judge import Judge
-from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError
 from shapewright.search.budgets import Budget
 
@@ -50,34 +48,7 @@ _BORROWED = 0.15  # of these, for the choices that suit others
 _LITTLE = 0.05  # of the most that is promised, that is not worth a trial
 _LEAST = 24  # evaluations that a search is worth beginning with
 _FAR = 3.0  # what lies further apart is not searched for with longer Ranges, which may change much
-_NEARER = 0.25  # of the way to a replicated replica, that a reference has to come to be helped
-_LEAST_VALUE = 0.6  # of a change to be shown: one reference nearly all the way, or some a part of it
-_READING = 12  # lines of code that reading any suggestion costs as much as
-_LOST = 0.1  # further apart with the final Ranges: worth another search
 _CLOSE = 0.4  # how little longer Ranges should leave apart, so that they are long enough
-
-
-@dataclass(frozen=True, eq=False)
-class Change:
-    """A proposal that is tried."""
-
-    proposal: Proposal
-    ranges: Ranges  # those that the references need
-    source: str  # the changed source, with these Ranges
-    outcome: Outcome  # what it gives for the references
-
-    helped: tuple[int, ...]  # rows of the references that come much nearer, replicated ones with them
-    value: float  # how many references it carries all the way, where two halves count as one
-
-    @property
-    def worth(self) -> float:
-        """The value per line of code that is to read."""
-        return self.value / (_READING + self.lines)
-
-    @property
-    def lines(self) -> int:
-        """Of code that are added, about."""
-        return self.proposal.rule.lines if self.proposal.rule else 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,16 +58,6 @@ class _Prospect:
     proposal: Proposal
     starts: Outcome
     promise: float
-
-
-@dataclass(frozen=True, eq=False)
-class _Trials:
-    """What proposals are tried with."""
-
-    space: ParameterSpace  # of the procedure without any change
-    crew: Workers  # workers that turn to one changed procedure after the other
-    misfits: Sequence[Misfit]  # the references that need a change
-    judge: Judge  # measures replicas
 
 
 def selected(
@@ -114,7 +75,7 @@ def selected(
     limit: of the number of changes. None only repeats part of what another does.
     """
     with Workers.of(procedure, judge.settings) as crew:
-        trials = _Trials(procedure.space, crew, misfits, judge)
+        trials = Trials(procedure.space, crew, misfits, judge, RandomShapes.of(crew, judge.settings.seed))
         prospects = [prospect for idea in ideas[:_BUILT] for prospect in _built(trials, idea, known)]
         leading = sorted(prospects, key=lambda prospect: -prospect.promise)
         # What a longer Range brings only a search tells: half of the places are theirs.
@@ -132,30 +93,14 @@ def selected(
             allowed, idea, begun = int(_CONFIRMED_SHARE * left), prospect.proposal, time.monotonic()
             left -= allowed
             outcome = _outcome_for_all(trials, prospect, allowed)
-            changes += _change(trials, idea, "", outcome)
+            changes += change_of(trials, idea, outcome)
             nearer = [m.row for m in misfits if outcome.apart(m.row) < m.nearest.apart]
             best = min((outcome.apart(row) for row in nearer), default=np.inf)
             tried.append(Tried(idea.title, idea.kind, len(nearer), best, time.monotonic() - begun))
-        return _worth_showing(trials, changes, limit), sorted(tried, key=lambda one: one.best)
+        return worth_showing(trials, changes, limit), sorted(tried, key=lambda one: one.best)
 
 
-def _change(trials: _Trials, idea: Proposal, source: str, outcome: Outcome) -> Iterator[Change]:
-    """The change where it brings enough, with the Ranges that the references need which it brings nearer."""
-    ways = {m.row: _way(m, outcome) for m in trials.misfits}
-    helped = tuple(row for row, way in ways.items() if way >= _NEARER)
-    value = sum(ways[row] + 0.5 * max(1.0 - outcome.apart(row), 0.0) for row in helped)
-    if value >= _LEAST_VALUE:
-        ranges = narrowed(idea, trials.space, [outcome.parameters[row] for row in helped])
-        if idea.rule or any(_reads_longer(trials.space[name], *ranges[name][:2]) for name in ranges):
-            yield Change(idea, ranges, source, outcome, helped, value)
-
-
-def _reads_longer(parameter: Any, low: float, high: float) -> bool:
-    """Whether a Range is longer in the digits that an author reads."""
-    return (number(low), number(high)) != (number(parameter.low), number(parameter.high))
-
-
-def _built(trials: _Trials, idea: Proposal, known: Sequence[Replica]) -> Iterator[_Prospect]:
+def _built(trials: Trials, idea: Proposal, known: Sequence[Replica]) -> Iterator[_Prospect]:
     """The proposal with shapes built for some misfits, half of them those it is for; nothing if it is of no use."""
     misfits = trials.misfits
     groups = [[m for m in misfits if (m.row in idea.starts) == own] for own in (True, False)]
@@ -166,17 +111,13 @@ def _built(trials: _Trials, idea: Proposal, known: Sequence[Replica]) -> Iterato
                 pieces = {m.row: m.pieces for m in some}
                 starts = nearest_starts(crew, {m.row: idea.candidates(m) for m in some}, trials.judge, pieces)
                 starts = starts.whole(pieces).only_counted()
-                yield _Prospect(idea, starts, _promise(idea, misfits, {m.row: _way(m, starts) for m in some}))
+                yield _Prospect(idea, starts, _promise(idea, misfits, {m.row: way(m, starts) for m in some}))
     except (EditError, ProcedureError):
         return
 
 
 def _spread(misfits: Sequence[Misfit], count: int) -> list[Misfit]:
     return [misfits[i] for i in sorted({int(i) for i in np.linspace(0, len(misfits) - 1, count)})] if misfits else []
-
-
-def _way(misfit: Misfit, starts: Outcome) -> float:
-    return misfit.way(starts.apart(misfit.row))
 
 
 def _promise(idea: Proposal, misfits: Sequence[Misfit], ways: Mapping[int, float]) -> float:
@@ -189,10 +130,10 @@ def _promise(idea: Proposal, misfits: Sequence[Misfit], ways: Mapping[int, float
     return promise
 
 
-def _briefly_searched(trials: _Trials, prospect: _Prospect, evaluations: int) -> _Prospect:
+def _briefly_searched(trials: Trials, prospect: _Prospect, evaluations: int) -> _Prospect:
     """The same after a short search for the nearest of the misfits that it is for, which then stand for the others."""
     idea, starts, misfits = prospect.proposal, prospect.starts, trials.misfits
-    ways = {m.row: _way(m, starts) for m in misfits if m.row in starts.replicas}
+    ways = {m.row: way(m, starts) for m in misfits if m.row in starts.replicas}
     budget = BRIEF.within(max(evaluations / _SEARCHED, _LEAST), int(trials.space.scalars.sum()))
     near = sorted((row for row in ways if row in idea.starts and ways[row] < 1.0), key=starts.apart)
     near = near[: min(_SEARCHED, evaluations // _LEAST)]
@@ -201,13 +142,13 @@ def _briefly_searched(trials: _Trials, prospect: _Prospect, evaluations: int) ->
     with turned_to(idea.write(idea.ranges), trials.crew) as crew:
         begin = {row: starts.parameters[row] for row in near}
         starts = starts.joined(outcome_of(crew, begin, trials.judge, budget, sure=idea.flag).using(idea.uses))
-    after = {m.row: _way(m, starts) for m in misfits if m.row in ways}
+    after = {m.row: way(m, starts) for m in misfits if m.row in ways}
     lift = float(np.mean([after[row] for row in near]))
     after = {row: way if row in near or row not in idea.starts else max(way, lift) for row, way in after.items()}
     return replace(prospect, starts=starts, promise=_promise(idea, misfits, after))
 
 
-def _outcome_for_all(trials: _Trials, prospect: _Prospect, evaluations: int) -> Outcome:
+def _outcome_for_all(trials: Trials, prospect: _Prospect, evaluations: int) -> Outcome:
     """What the proposal gives for all misfits: before a search, with the choices that suit others, and after one."""
     idea, judge, pieces = prospect.proposal, trials.judge, {m.row: m.pieces for m in trials.misfits}
     with turned_to(idea.write(idea.ranges), trials.crew) as crew:
@@ -253,46 +194,3 @@ def _afforded(candidates: Mapping[int, list[Parameters]], most: int) -> dict[int
     """As many candidates of each reference as there may be in all."""
     share = max(1, most // max(len(candidates), 1))
     return {row: several[:share] for row, several in list(candidates.items())[:most]}
-
-
-def _worth_showing(trials: _Trials, changes: Sequence[Change], limit: int) -> list[Change]:
-    """Those to show, with the Ranges that their references need, judged with these."""
-    needed = [change for change in changes if not any(_simpler(other, change) for other in changes)]
-    shown: list[Change] = []
-    for change in _ordered(needed):
-        if len(shown) < limit and not any(_repeats(change, other) for other in shown):
-            shown += _final(trials, change)
-    return _ordered(shown)
-
-
-def _ordered(changes: Sequence[Change]) -> list[Change]:
-    return sorted(changes, key=lambda change: (-change.worth, len(change.ranges)))
-
-
-def _repeats(one: Change, other: Change) -> bool:
-    same = other.proposal.kind == one.proposal.kind
-    return same and set(one.helped) <= set(other.helped)
-
-
-def _simpler(one: Change, other: Change) -> bool:
-    """Whether one makes fewer Ranges longer than the other, for as many references."""
-    fewer = bool(one.proposal.ends) and set(one.proposal.ends) < set(other.proposal.ends)
-    return fewer and len(one.helped) >= len(other.helped)
-
-
-def _final(trials: _Trials, change: Change) -> Iterator[Change]:
-    """The same with its final source, and what that really gives; nothing if that is nothing, or unsound."""
-    idea, judge = change.proposal, trials.judge
-    made = {row: change.outcome.parameters[row] for row in change.helped}
-    try:
-        source = idea.write(change.ranges)
-        with turned_to(source, trials.crew) as crew:
-            if not stays_sound(crew, trials.space, idea.flag, judge.settings.seed):
-                return
-            outcome = outcome_of(crew, made, judge, None)
-            lost = {row: made[row] for row in made if outcome.apart(row) > change.outcome.apart(row) + _LOST}
-            outcome = outcome.joined(outcome_of(crew, lost, judge, LONG, sure=idea.flag).using(idea.uses))
-    except (EditError, ProcedureError):
-        return
-    for final in _change(trials, idea, source, outcome):
-        yield replace(final, ranges=change.ranges)

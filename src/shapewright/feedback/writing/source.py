@@ -67,8 +67,13 @@ def code(node: cst.CSTNode) -> str:
     return cst.Module(()).code_for_node(bare).strip()
 
 
+def functions_in(module: cst.Module) -> list[cst.FunctionDef]:
+    """Those at its top level."""
+    return [node for node in module.body if isinstance(node, cst.FunctionDef)]
+
+
 def function_of(module: cst.Module, name: str) -> cst.FunctionDef:
-    found = [node for node in module.body if isinstance(node, cst.FunctionDef) and node.name.value == name]
+    found = [function for function in functions_in(module) if function.name.value == name]
     if not found:
         raise EditError(f"there is no function {name} at the top level of the file")
     return found[-1]

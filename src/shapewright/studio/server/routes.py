@@ -187,11 +187,7 @@ def _compare(session: Session, request: Request) -> Comparison:
 
 
 def _apply(session: Session, request: Request, order: requests.ApplyOrder) -> requests.Replaced | requests.Copied:
-    suggestions = queries.explanation(session)["suggestions"]
-    index = request.path_params["index"]
-    text = suggestions[index]["source"] if index < len(suggestions) else None
-    if not isinstance(text, str):
-        raise Missing("this suggestion has no procedure to apply")
+    text = queries.applied(session, request.path_params["index"])
     if order.to == "procedure":
         return _replaced(session.project, text, order.digest)
     return requests.Copied(path=session.project.write_copy(text).name, text=text)

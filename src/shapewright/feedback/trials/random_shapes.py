@@ -1,0 +1,118 @@
+"""Random shapes of a procedure without and with a change: whether they stay sound, and where its part stands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shapewright.building import Workers
+from shapewright.feedback.parts.attachment import separate
+from shapewright.feedback.surfaces.visible_surface import VisibleSurface
+from shapewright.feedback.trials.attempt import same
+from shapewright.parameters import Binary, Choice, Parameters, ParameterSpace, Value
+from shapewright.shapes import Mesh
+
+_DRAWN = 16  # shapes: some for each value of a choice
+# By eye, on suggestions for vessels and houses:
+_SEEN = 0.15  # of a part's surface, that is seen from outside, at least
+_POINTS = 1000  # of a shape's surface that tell how much is seen
+_FEWEST, _SELDOM = 3, 0.34  # shapes with a value, and how often a part stands in them where it does not belong
+
+
+@dataclass(frozen=True, eq=False)
+class RandomShapes:
+    """Shapes of a procedure.
+
+    Attributes:
+        space: of the procedure.
+        parameters: of each shape.
+        shapes: None where none could be built.
+    """
+
+    space: ParameterSpace
+    parameters: tuple[Parameters, ...]
+    shapes: tuple[Mesh | None, ...]
+
+    @classmethod
+    def of(cls, crew: Workers, seed: int) -> RandomShapes:
+        space = crew.procedure.space
+        drawn = tuple(space.sample(_DRAWN, seed))
+        return cls(space, drawn, _built(crew, drawn))
+
+    def changed(self, crew: Workers, flag: str | None) -> RandomShapes:
+        """The same parameters in a changed procedure.
+
+        flag: the binary that switches the change on, None where it is always on.
+        """
+        space = crew.procedure.space
+        own = [space.carry(values) for values in self.parameters]
+        on = {flag: not space.defaults[flag]} if flag else {}
+        drawn = tuple(space.canonical({**values, **on}) for values in own)
+        return RandomShapes(space, drawn, _built(crew, drawn))
+
+    @property
+    def unsound(self) -> int:
+        return sum(not (shape and shape.soundness().sound) for shape in self.shapes)
+
+    def branch(self, changed: RandomShapes, helped: Sequence[Parameters]) -> str | None:
+        """The condition on parameters ``p`` under which what a change adds stands: None where it stands everywhere.
+
+        It stands where it is seen and where no more floats than before. helped: parameters that make use of it.
+        """
+        stands = [_stands(old, new) for old, new in zip(self.shapes, changed.shapes, strict=True)]
+        best, most = None, 0
+        for parameter in self.space:
+            if not isinstance(parameter, Choice | Binary):
+                continue
+            values = parameter.options if isinstance(parameter, Choice) else (False, True)
+            rows = {value: self._rows(parameter.name, value) for value in values}
+            out = [v for v in values if len(rows[v]) >= _FEWEST and np.mean([stands[r] for r in rows[v]]) < _SELDOM]
+            saved = sum(not stands[row] for value in out for row in rows[value])
+            if saved > most and not {own[parameter.name] for own in helped} & set(out):
+                best, most = _condition(parameter, [value for value in values if value not in out]), saved
+        return best
+
+    def _rows(self, name: str, value: Value) -> list[int]:
+        return [
+            row
+            for row, values in enumerate(self.parameters)
+            if values[name] == value and name in self.space.active(values)
+        ]
+
+
+def seen(mesh: Mesh, labels: Sequence[str]) -> float:
+    """The share of the surface of parts with these labels that is seen from outside; 1 where there is none."""
+    if mesh.face_labels is None or not labels:
+        return 1.0
+    surface = VisibleSurface.of(mesh.normalised(), _POINTS)
+    own = np.isin(mesh.face_labels[surface.faces], [mesh.label_names.index(name) for name in labels])
+    return float(surface.visible[own].mean()) if own.any() else 1.0
+
+
+def shows(old: Mesh, new: Mesh) -> bool:
+    """Whether what a change adds is not hidden in what was there before; without a new part, whether it changes."""
+    added = [label for label in new.label_names if label not in old.label_names]
+    return seen(new, added) >= _SEEN if added else not same(old, new)
+
+
+def _stands(old: Mesh | None, new: Mesh | None) -> bool:
+    if new is None:
+        return old is None
+    return old is None or (separate(new) <= separate(old) and shows(old, new))
+
+
+def _built(crew: Workers, drawn: Sequence[Parameters]) -> tuple[Mesh | None, ...]:
+    return tuple(build.shape if isinstance(build.shape, Mesh) else None for build in crew.build(drawn))
+
+
+def _condition(parameter: Choice | Binary, kept: Sequence[Value]) -> str:
+    name = f"p.{parameter.name}"
+    if isinstance(parameter, Binary):
+        return name if kept[0] else f"not {name}"
+    return f'{name} == "{kept[0]}"' if len(kept) == 1 else f"{name} in ({', '.join(map(_quoted, kept))})"
+
+
+def _quoted(value: Value) -> str:
+    return f'"{value}"'

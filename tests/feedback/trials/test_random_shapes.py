@@ -1,0 +1,77 @@
+"""Random shapes of a procedure without and with a change."""
+
+import pytest
+
+import shapewright as sw
+from shapewright.building import Workers
+from shapewright.feedback.trials.attempt import turned_to
+from shapewright.feedback.trials.random_shapes import RandomShapes, seen, shows
+from shapewright.modelling.solids import box
+from shapewright.shapes.mesh import concatenate
+
+POST = """
+from typing import Annotated, Literal
+from shapewright import Range, procedure
+from shapewright.modelling.solids import box
+
+@procedure
+def post(height: Annotated[float, Range(0.2, 1.0)] = 0.6, wide: bool = False, kind: Literal["post", "wall"] = "post"):
+    shape = box((3.0 if kind == "wall" else 0.5, height, 0.2 if wide else 0.1)).label("post")
+    return shape
+"""
+
+
+@pytest.fixture
+def crew(tmp_path):
+    path = tmp_path / "post.py"
+    path.write_text(POST)
+    with Workers(sw.load_procedure(path), 1) as workers:
+        yield workers
+
+
+def changed(crew, after, more=""):
+    source = POST.replace('= "post"):', '= "post", knob: bool = False):').replace("return shape", f"return {after}")
+    plain = RandomShapes.of(crew, 0)
+    with turned_to(source + more, crew) as turned:
+        return plain, plain.changed(turned, "knob")
+
+
+def test_a_change_that_makes_sound_shapes_unsound_is_told(crew):
+    through = """
+def add(shape):
+    mesh = shape.mesh()
+    return (
+        [*mesh.vertices, *(mesh.vertices * 0.5 + (0.25, 0, 0))],
+        [*mesh.faces, *(mesh.faces + len(mesh.vertices))],
+    )
+"""
+    plain, broken = changed(crew, "add(shape) if knob else shape", through)
+    assert plain.unsound == 0 and broken.unsound > 0
+    _, sound = changed(crew, "shape | shape if knob else shape")
+    assert sound.unsound == 0 and all(values["knob"] for values in sound.parameters)
+
+
+def test_a_part_belongs_to_the_branches_in_which_it_stands(crew):
+    aside = 'shape | box(0.2, at=(0.3, 0, 0)).label("knob") if knob else shape'
+    plain, knobs = changed(crew, aside.replace("box(0.2,", 'box(0.2 if kind == "post" else 0.01,'))
+    used = [values for values in knobs.parameters if values["kind"] == "post"]
+    assert plain.branch(knobs, used) == 'p.kind == "post"'  # in a wall it is hidden
+    assert plain.branch(knobs, list(knobs.parameters)) is None  # a wall that needs it has it
+
+
+def test_a_part_that_floats_in_a_branch_does_not_belong_there(crew):
+    plain, knobs = changed(crew, 'shape | box(0.2, at=(0.3, 0.0, 1 if wide else 0)).label("k") if knob else shape')
+    assert plain.branch(knobs, []) == "not p.wide"
+
+
+def test_a_part_that_stands_everywhere_has_no_condition(crew):
+    plain, knobs = changed(crew, 'shape | box(0.3, at=(0, height / 2, 0)).label("knob") if knob else shape')
+    assert plain.branch(knobs, []) is None
+
+
+def test_what_lies_inside_is_not_seen():
+    outer, inner = box(1.0).label("outer").mesh(), box(0.5).label("inner").mesh()
+    inside = concatenate([outer, inner])
+    beside = (box(1.0).label("outer") | box(0.5, at=(0.6, 0, 0)).label("inner")).mesh()
+    assert shows(outer, beside) and 0.5 < seen(beside, ["inner"]) <= 1.0
+    assert seen(inside, ["inner"]) == 0.0 and not shows(outer, inside)
