@@ -35,11 +35,27 @@ def made(kind, *stretched):
 
 
 def case(reference, shown, covering=None):
+    """Of a reference whose file names no parts."""
+    reference = replace(reference, face_labels=None, label_names=())
     where = residuals(reference, shown)
     found = Case.of("one", reference, False, Replica(0, {}, shown, 0.3), where)
     if covering is None:
         return found
     return replace(found, covering=Replica(0, {}, covering, 0.3), covering_residuals=residuals(reference, covering))
+
+
+def test_a_missing_region_has_the_name_that_the_file_gives_its_part():
+    reference, shown = made(("seat", "legs", "panel")), made(("seat", "legs"))
+    one = Case.of("one", reference, False, Replica(0, {}, shown, 0.3), residuals(reference, shown))
+    cause = told_causes(one, differences(one.residuals))[0]
+    assert (cause.kind, cause.evidence["part"]) == ("missing part", "panel")
+    assert cause.text.startswith("missing: the reference's part 'panel', ")
+
+
+def test_a_name_that_all_of_the_reference_has_is_not_told():
+    reference, shown = made(("seat", "legs", "panel")).label("chair"), made(("seat", "legs"))
+    one = Case.of("one", reference, False, Replica(0, {}, shown, 0.3), residuals(reference, shown))
+    assert "part" not in told_causes(one, differences(one.residuals))[0].evidence
 
 
 PAIRS = [(KINDS[i], KINDS[(7 * i + 3) % len(KINDS)], KINDS[(5 * i + 11) % len(KINDS)]) for i in range(len(KINDS))]

@@ -23,6 +23,8 @@ from shapewright.shapes import Floats
 
 _SHARED = 0.5
 """Share of a region that the shown replica has to leave unexplained too. Half, so that most of it can be seen."""
+_NAMED = 0.5
+"""Share of a missing region that lies on the part of the reference that is named for it. Half, so that it is most."""
 _TOLD = 0.002
 """Share of the surface times distance that a remark on a replicated shape is worth: a tenth of a part beyond doubt is
 0.001, and no person sees that."""
@@ -129,8 +131,11 @@ def _remarks(
             row for row in counts(case.residuals, parts) if row.reference > row.replica and row.label in where.parts
         ]
         told = "; ".join([f"{form.words} {where.words}", *(row.words for row in rows)])
-        text = f"missing: {told}; {share['unexplained']:.0%} of the reference's surface"
-        return {"form": asdict(form), "where": asdict(where), **_counted(rows)}, text
+        named = part_named(chief, case)
+        part = f"the reference's part {named!r}, " if named else ""
+        text = f"missing: {part}{told}; {share['unexplained']:.0%} of the reference's surface"
+        facts = {"form": asdict(form), "where": asdict(where), **_counted(rows)}
+        return facts | ({"part": named} if named else {}), text
     if way.kind == "surplus part":
         what = f"{chief.label}, {_size(chief)}" if chief.label else form_of(chief, alike).words
         tall = replace(where, parts=()).words if chief.label else where.words
@@ -167,6 +172,16 @@ def _near(region: Region, parts: Sequence[Part], case: Case) -> str | None:
     """The part of the shown replica that a missing region is nearest to."""
     where = whereabouts(_around([region]), parts, case.residuals.reference_bounds)
     return where.parts[0] if where.parts else None
+
+
+def part_named(region: Region, case: Case) -> str | None:
+    """What the reference's file calls the part that a missing region mostly lies on; None where it says nothing."""
+    labels, names = case.reference.face_labels, case.reference.label_names
+    if labels is None or len(names) < 2:
+        return None
+    found, counts = np.unique(labels[case.residuals.reference.faces[region.rows]], return_counts=True)
+    commonest = int(found[counts.argmax()])
+    return names[commonest] if commonest >= 0 and counts.max() > _NAMED * counts.sum() else None
 
 
 def _around(regions: Sequence[Region]) -> Floats:

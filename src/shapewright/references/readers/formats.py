@@ -9,6 +9,7 @@ import numpy as np
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.other_kinds import refusal
+from shapewright.references.parts import Parts
 from shapewright.references.readers.collada.scene import read_collada
 from shapewright.references.readers.contents import Contents, held
 from shapewright.references.readers.gltf.scene import read_gltf
@@ -64,9 +65,10 @@ def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
 def contents(path: Path) -> Contents:
     """The triangles of a file in one mesh, or its drawing, with notes on what was left out, its unit and its up axis.
 
-    Polygons are triangulated and scenes flattened; materials and textures are ignored. Triangles stay unchanged,
-    inward, doubled or flat. The reader leaves out vertices that no triangle uses and, with a note, triangles with a
-    corner that is not finite. Raises UnreadableError, with the reason, where nothing remains that could be seen.
+    Polygons are triangulated and scenes flattened. Names of parts and materials become labels; textures are ignored.
+    Triangles stay unchanged, inward, doubled or flat. The reader leaves out vertices that no triangle uses and, with a
+    note, triangles with a corner that is not finite. Raises UnreadableError, with the reason, where nothing remains
+    that could be seen.
     """
     kind = path.suffix.lower()
     if kind not in EXTENSIONS:
@@ -88,7 +90,8 @@ def contents(path: Path) -> Contents:
             return Contents(*_DRAWINGS[kind](data))
         if kind in _POLYGONS:
             polygons = _polygons(kind, data)
-            scene = Scene(polygons.vertices, triangulate(polygons), polygons.notes)
+            vertices, notes = polygons.vertices, polygons.notes
+            scene = Scene(vertices, triangulate(polygons), notes, parts=polygons.parts_of_triangles)
         else:
             scene = _SCENES[kind](path, data)
     except UnreadableError:
@@ -96,7 +99,7 @@ def contents(path: Path) -> Contents:
     except Exception as error:  # a broken file can make a parser fail in any way
         raise UnreadableError(f"broken: {type(error).__name__}: {error}") from error
     try:
-        mesh, lost = sound(scene.vertices, scene.faces)
+        mesh, lost = sound(scene.vertices, scene.faces, scene.parts)
     except UnreadableError as error:
         raise UnreadableError("; ".join([str(error), *scene.notes])) from error
     return Contents(mesh, (*scene.notes, *lost), scene.unit, scene.up)
@@ -119,8 +122,11 @@ def _polygons(kind: str, data: bytes) -> Polygons:
     raise UnreadableError(f"{why}; it holds {inside}")
 
 
-def sound(vertices: Floats, faces: Ints) -> tuple[Mesh, tuple[str, ...]]:
-    """Triangles that can be seen and measured, with the notes of ``read``; raises UnreadableError as it does."""
+def sound(vertices: Floats, faces: Ints, parts: Parts | None = None) -> tuple[Mesh, tuple[str, ...]]:
+    """Triangles that can be seen and measured, with the notes of ``read``; raises UnreadableError as it does.
+
+    parts: those of the faces, which become labels.
+    """
     if not len(faces):
         raise UnreadableError("no triangles, only points or lines" if len(vertices) else "it holds no triangles")
     check_indices(faces, len(vertices))
@@ -137,6 +143,7 @@ def sound(vertices: Floats, faces: Ints) -> tuple[Mesh, tuple[str, ...]]:
     if not any(_seen(mesh, size, start) for start in range(0, len(mesh.faces), _AT_ONCE)):
         raise UnreadableError("its triangles have no area: all are lines or points")
     lost = len(faces) - len(mesh.faces)
+    mesh = parts.labelled(mesh, np.flatnonzero(finite)) if parts else mesh
     return mesh, (f"{lost} of {len(faces)} triangles left out: a corner is not finite",) if lost else ()
 
 

@@ -1,4 +1,4 @@
-"""Wavefront OBJ. Only vertices and faces are read: materials, textures, normals and groups are passed over.
+"""Wavefront OBJ: vertices, faces, and the names of groups and materials; textures and normals are passed over.
 
 Not through trimesh, which counts relative indices from the end of the file instead of from the face, and cuts concave
 polygons as fans.
@@ -14,6 +14,7 @@ from itertools import islice
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.parts import PartName, Parts
 from shapewright.references.readers.polygons import Polygons
 from shapewright.references.readers.text import Rows, lines, numbers, plain, rows, shown
 from shapewright.shapes import Floats, Ints
@@ -21,6 +22,8 @@ from shapewright.shapes import Floats, Ints
 _SURFACES = frozenset(b"curv curv2 surf bzp bsp cdc cdp res".split())
 _NAMES = frozenset(b"o g usemtl mtllib usemap maplib".split())
 """Keywords that names follow, which may end in a backslash."""
+_NAMING = frozenset(b"o g usemtl".split())
+"""Those that name the faces below them."""
 _OTHERS = frozenset(
     b"vt vn vp s mg lod l p shadow_obj trace_obj bevel c_interp d_interp ctech stech cstype deg bmat step parm trim "
     b"hole scrv sp end con".split()
@@ -35,7 +38,9 @@ def read_obj(data: bytes) -> Polygons:
     """The polygons of an OBJ file's bytes. Raises UnreadableError with the line that cannot be understood."""
     points, corners, counts = [np.empty((0, 3))], [np.empty(0, np.int64)], [np.empty(0, np.int64)]
     others: Counter[bytes] = Counter()
-    above = 0
+    above = polygons = 0
+    part = PartName()
+    begun = [(part, 0)]  # parts, each with the polygons above it
     text = plain(data)
     left = _continued(lines(text)) if b"\\" in text else lines(text)
     while batch := list(islice(left, _AT_ONCE)):
@@ -51,12 +56,29 @@ def read_obj(data: bytes) -> Polygons:
                 before.append(above + len(vertices))
             elif not keyword.startswith(b"#"):
                 others[keyword] += 1
+                if keyword in _NAMING:
+                    part = _named(keyword, rest, part)
+                    begun.append((part, polygons + len(before)))
         points.append(_points(vertices))
         indices, sizes = _corners(faces, before)
         corners.append(indices)
         counts.append(sizes)
         above += len(vertices)
-    return Polygons(np.concatenate(points), np.concatenate(corners), np.concatenate(counts), tuple(_notes(others)))
+        polygons += len(before)
+    ends = [*(start for _, start in begun[1:]), polygons]
+    parts = Parts.of((part, end - start) for (part, start), end in zip(begun, ends, strict=True))
+    notes = tuple(_notes(others))
+    return Polygons(np.concatenate(points), np.concatenate(corners), np.concatenate(counts), notes, parts)
+
+
+def _named(keyword: bytes, rest: Sequence[bytes], before: PartName) -> PartName:
+    """The part of the faces below a line with a name: an object or a group, whichever comes last, or a material."""
+    name = rest[0] if rest else b""
+    return (
+        PartName(before.name, PartName.of(b"", name).material)
+        if keyword == b"usemtl"
+        else PartName.of(name, before.material)
+    )
 
 
 def _points(lines: Sequence[bytes]) -> Floats:

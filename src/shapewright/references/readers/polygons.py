@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.parts import Parts
 from shapewright.shapes import Floats, Ints
 
 _REFLEX = 1e-6
@@ -23,12 +24,19 @@ class Polygons:
         corners: (C,) int64, the vertices of every polygon, one polygon after the other.
         counts: (P,) int64, the number of corners of each polygon; their sum is C.
         notes: what of the file was left out.
+        parts: which part each of the P polygons belongs to; None where the file names none.
     """
 
     vertices: Floats
     corners: Ints
     counts: Ints
     notes: tuple[str, ...] = ()
+    parts: Parts | None = None
+
+    @property
+    def parts_of_triangles(self) -> Parts | None:
+        """The same of the triangles that fill the polygons."""
+        return self.parts and self.parts.repeated(np.maximum(self.counts - 2, 0))
 
 
 def triangulate(polygons: Polygons) -> Ints:

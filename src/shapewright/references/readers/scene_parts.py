@@ -9,6 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.parts import Parts
 from shapewright.shapes import Floats, Ints
 
 Piece: TypeAlias = tuple[Floats, Ints]
@@ -25,6 +26,7 @@ class Scene:
         notes: what of the file was left out.
         unit: in metres, where the file or its format states it; else None.
         up: the axis that points up, among x, y, z, -x, -y, -z, where the file or its format states it; else None.
+        parts: which part each face belongs to; None where the file names none.
     """
 
     vertices: Floats
@@ -32,6 +34,7 @@ class Scene:
     notes: tuple[str, ...] = ()
     unit: float | None = None
     up: str | None = None
+    parts: Parts | None = None
 
 
 MOST = 10_000_000

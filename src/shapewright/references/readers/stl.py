@@ -1,16 +1,18 @@
 """STL, binary or text. A file is binary when its size says so: many binary ones begin with the word "solid" too.
 
 Not through trimesh, which regroups the corners of quads by three, and refuses names that are not UTF-8, other line
-ends, and files without "endsolid". Normals, names, colours and attributes are passed over.
+ends, and files without "endsolid". Normals, colours and attributes are passed over.
 """
 
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.parts import PartName, Parts
 from shapewright.references.readers.polygons import Polygons
 from shapewright.references.readers.text import PADDING, numbers, plain, shown
 from shapewright.shapes import Floats, Ints
@@ -82,7 +84,8 @@ def _binary(data: bytes) -> Polygons:
 def _text(text: bytes) -> Polygons:
     points: list[Floats] = []
     counts: list[Ints] = []
-    at, facets, opened = 0, 0, False
+    at, facets, opened, name = 0, 0, False, PartName()
+    solids: list[tuple[PartName, int]] = []
     while at < len(text):
         loops: list[bytes] = []
         while len(loops) < _AT_ONCE and (facet := _SMALL.match(text, at) or _ANY.match(text, at)):
@@ -92,8 +95,10 @@ def _text(text: bytes) -> Polygons:
             points.append(numbers(b"".join(loops).replace(b"vertex", b"")).reshape(-1, 3))
             counts.append(np.array([loop.count(b"vertex") for loop in loops], dtype=np.int64))
             facets += len(loops)
+            solids.append((name, len(loops)))
         elif solid := _SOLID.match(text, at):
             at, opened = solid.end(), True
+            name = PartName.of(solid[0].strip()[len(b"solid") :])
         elif end := _ENDSOLID.match(text, at):
             at, opened = end.end(), False
         else:
@@ -106,7 +111,8 @@ def _text(text: bytes) -> Polygons:
     few = sum(int((of < 3).sum()) for of in counts)
     if few:
         raise UnreadableError(f"broken: {few} of its facets have fewer than three corners")
-    return _facets(points, counts, ("the last solid has no 'endsolid': the file may be cut short",) if opened else ())
+    notes = ("the last solid has no 'endsolid': the file may be cut short",) if opened else ()
+    return replace(_facets(points, counts, notes), parts=Parts.of(solids))
 
 
 def _facets(points: list[Floats], counts: list[Ints], notes: tuple[str, ...]) -> Polygons:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.parts import PartName, Parts
 from shapewright.references.readers.collada.controllers import controlled
 from shapewright.references.readers.collada.geometry import Geometry, read_geometry
 from shapewright.references.readers.collada.markup import Document, Element, child, children, floats, parse, words
@@ -24,11 +25,12 @@ _SIZES = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3, "lookat": 9}
 
 @dataclass(frozen=True, eq=False)
 class _Place:
-    """A node, where it stands (4, 4), and whether it is hidden, itself or by one above."""
+    """A node, where it stands (4, 4), whether it is hidden, itself or by one above, and the nearest name."""
 
     node: Element
     matrix: Floats
     hidden: bool
+    name: PartName
 
 
 def read_collada(path: Path, data: bytes) -> Scene:
@@ -48,7 +50,7 @@ def read_collada(path: Path, data: bytes) -> Scene:
     def geometry(element: Element) -> Geometry:
         return read_geometry(document, element)
 
-    pieces, triangles = list[Piece](), 0
+    pieces, names, triangles = list[Piece](), list[tuple[PartName, int]](), 0
     for place in places:
         for instance in children(place.node, "instance_geometry", "instance_controller"):
             if place.hidden:
@@ -69,8 +71,9 @@ def read_collada(path: Path, data: bytes) -> Scene:
             triangles += len(found.faces)
             refuse_too_many(triangles)
             pieces.append(placed(found.vertices, found.faces, matrix))
+            names.append((place.name, len(found.faces)))
     notes = tuple(f"{count} x {what} left out" for what, count in left_out.items())
-    return Scene(*join(pieces), notes, document.unit, document.up)
+    return Scene(*join(pieces), notes, document.unit, document.up, Parts.of(names))
 
 
 def _shown(document: Document) -> Element:
@@ -92,20 +95,22 @@ def _shown(document: Document) -> Element:
 def _places(document: Document, scene: Element, left_out: Counter[str]) -> list[_Place]:
     """Where all nodes stand, with those that they are instances of."""
     places: list[_Place] = []
-    roots = [(node, np.eye(4), False, 0) for node in children(scene, "node")]
+    roots = [(node, np.eye(4), False, PartName(), 0) for node in children(scene, "node")]
     waiting = roots[::-1]
     while waiting:
-        node, above, hidden, depth = waiting.pop()
+        node, above, hidden, name, depth = waiting.pop()
         matrix = above @ _local(node)
         hidden = hidden or _is_hidden(node)
-        places.append(_Place(node, matrix, hidden))
+        own = PartName.of(node.get("name"))
+        name = own if own.name else name
+        places.append(_Place(node, matrix, hidden, name))
         below = []
         for each in children(node, "node", "instance_node"):
             target = each if each.tag == "node" else document.target(each.get("url"), "node")
             if target is None:
                 left_out["node of another file"] += 1
             else:
-                below.append((target, matrix, hidden, depth + 1))
+                below.append((target, matrix, hidden, name, depth + 1))
         waiting.extend(below[::-1])
         if depth > _DEEPEST:
             raise UnreadableError(f"broken: its nodes are more than {_DEEPEST} levels deep, or stand below themselves")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeVar
+from typing import Annotated, Any, TypeVar
 
 import msgspec
 from msgspec import Meta, Raw, Struct
@@ -101,6 +101,7 @@ class Primitive(Struct, rename="camel", frozen=True):
     attributes: dict[str, _Count]
     indices: _Count | None = None
     mode: int = 4
+    material: Any = None
     targets: list[dict[str, _Count]] = []
     extensions: _Extensions = {}
 
@@ -109,6 +110,7 @@ class Mesh(Struct, rename="camel", frozen=True):
     """Primitives, and the weights of their morph targets."""
 
     primitives: list[Primitive]
+    name: Any = None
     weights: list[float] = []
 
 
@@ -127,6 +129,7 @@ class Node(Struct, rename="camel", frozen=True):
     translation: _Vector3 = (0.0, 0.0, 0.0)
     rotation: _Vector4 = (0.0, 0.0, 0.0, 1.0)
     scale: _Vector3 = (1.0, 1.0, 1.0)
+    name: Any = None
     mesh: _Count | None = None
     skin: _Count | None = None
     weights: list[float] | None = None
@@ -149,6 +152,7 @@ class Document(Struct, rename="camel", frozen=True):
     buffer_views: list[BufferView] = []
     accessors: list[Accessor] = []
     meshes: list[Mesh] = []
+    materials: Any = None
     skins: list[Skin] = []
     nodes: list[Node] = []
     scenes: list[Scene] = []
@@ -181,6 +185,14 @@ def parse(text: bytes) -> tuple[Document, tuple[str, ...]]:
 def extension(extensions: _Extensions, name: str, kind: type[_T]) -> _T | None:
     """What an extension says, None where it is absent. Raises UnreadableError where it cannot be understood."""
     return _decoded(bytes(extensions[name]), kind) if name in extensions else None
+
+
+def material_name(document: Document, number: object) -> object:
+    """What a document calls a material; None where it is none. Names decide nothing, so nothing is refused for them."""
+    rows = document.materials
+    if not isinstance(rows, list) or not isinstance(number, int) or not 0 <= number < len(rows):
+        return None
+    return rows[number].get("name") if isinstance(rows[number], dict) else None
 
 
 def at(rows: list[_T], index: int, what: str) -> _T:

@@ -9,6 +9,7 @@ import msgspec
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.parts import PartName
 from shapewright.references.readers.gltf.document import VISIBILITY, Document, Node, at, extension
 from shapewright.shapes import Floats
 
@@ -30,12 +31,14 @@ class Place:
         matrix: (4, 4), from its frame to that of the whole.
         listed: whether the scene that is shown has it.
         hidden: whether it is not visible, itself or by a node above.
+        name: its own, or that of the nearest node above that has one.
     """
 
     node: int
     matrix: Floats
     listed: bool
     hidden: bool
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,13 +148,13 @@ def _places(nodes: Sequence[Node], roots: Sequence[int], listed: Collection[int]
     places: list[Place] = []
     local = _local(nodes)
     visible = [extension(node.extensions, VISIBILITY, _Visibility) or _Visibility() for node in nodes]
-    waiting = [(root, np.eye(4), False, False) for root in reversed(roots)]
+    waiting = [(root, np.eye(4), False, False, "") for root in reversed(roots)]
     while waiting:
-        node, above, shown, hidden = waiting.pop()
+        node, above, shown, hidden, name = waiting.pop()
         shown, hidden = shown or node in listed, hidden or not visible[node].visible
-        matrix = above @ local[node]
-        places.append(Place(node, matrix, shown, hidden))
-        waiting.extend((child, matrix, shown, hidden) for child in reversed(nodes[node].children))
+        matrix, name = above @ local[node], PartName.of(nodes[node].name).name or name
+        places.append(Place(node, matrix, shown, hidden, name))
+        waiting.extend((child, matrix, shown, hidden, name) for child in reversed(nodes[node].children))
         if len(places) + len(waiting) > _MOST:
             raise UnreadableError(f"its nodes stand in more than {_MOST:,} places")
     return places

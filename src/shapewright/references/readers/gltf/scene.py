@@ -9,11 +9,21 @@ import msgspec
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.parts import PartName, Parts
 from shapewright.references.readers.gltf import draco
 from shapewright.references.readers.gltf.accessors import Accessors, accessors
 from shapewright.references.readers.gltf.buffers import views
 from shapewright.references.readers.gltf.container import unpack
-from shapewright.references.readers.gltf.document import INSTANCES, Document, Node, Primitive, at, extension, parse
+from shapewright.references.readers.gltf.document import (
+    INSTANCES,
+    Document,
+    Node,
+    Primitive,
+    at,
+    extension,
+    material_name,
+    parse,
+)
 from shapewright.references.readers.gltf.graph import graph, trs
 from shapewright.references.readers.gltf.primitives import Geometry, geometry, has_triangles, size
 from shapewright.references.readers.gltf.skins import joint_matrices, posed
@@ -36,7 +46,8 @@ def read_gltf(path: Path, data: bytes) -> Scene:
     """The triangles of a glTF file's bytes, Y up, in metres.
 
     Meshes stand where the scene shows them: by their nodes, their instances, or the joints of their skin; morph targets
-    count as their default weights say. Points and lines, materials and motion are left out. Files beside it are looked
+    count as their default weights say. Points and lines, looks and motion are left out. Parts
+    have the name of their node, or of the next one above, or of their mesh. Files beside it are looked
     for in its own folder. Raises UnreadableError, with the reason.
     """
     container = unpack(data)
@@ -44,9 +55,9 @@ def read_gltf(path: Path, data: bytes) -> Scene:
     read_view = views(document, path.parent, container.binary)
     arrays = accessors(document, read_view)
     shown = graph(document)
-    places = [(place.matrix, document.nodes[place.node]) for place in shown.shown]
-    copies = [(matrix @ _instances(node, arrays), node) for matrix, node in places]
-    primitives = [(p, len(matrices)) for matrices, node in copies for p in _primitives(document, node)]
+    places = [(place.matrix, document.nodes[place.node], place.name) for place in shown.shown]
+    copies = [(matrix @ _instances(node, arrays), node, name) for matrix, node, name in places]
+    primitives = [(p, len(matrices)) for matrices, node, _ in copies for p in _primitives(document, node)]
     refuse_too_many(sum(count * size(p, arrays) for p, count in primitives if has_triangles(p)))
     others = sum(count for p, count in primitives if not has_triangles(p))
 
@@ -59,25 +70,32 @@ def read_gltf(path: Path, data: bytes) -> Scene:
         return joint_matrices(document, skin, shown.matrices, arrays)
 
     @cache
-    def geometries(mesh: int, morph: tuple[float, ...]) -> list[Geometry]:
-        found = at(document.meshes, mesh, "mesh").primitives
-        return [geometry(p, morph, arrays, stream) for p in found if has_triangles(p)]
+    def geometries(mesh: int, morph: tuple[float, ...]) -> list[tuple[Geometry, PartName]]:
+        found = at(document.meshes, mesh, "mesh")
+        shown = [p for p in found.primitives if has_triangles(p)]
+        return [
+            (geometry(p, morph, arrays, stream), PartName.of(found.name, material_name(document, p.material)))
+            for p in shown
+        ]
 
-    pieces, spare = list[Piece](), 0
-    for matrices, node in copies:
+    pieces, names, spare = list[Piece](), list[tuple[PartName, int]](), 0
+    for matrices, node, name in copies:
         joints = None if node.skin is None else joints_of(node.skin)
-        for part in geometries(*_mesh(document, node)):
+        for part, called in geometries(*_mesh(document, node)):
             spare += part.spare * len(matrices)
             if joints is not None and part.joints.size:
                 pieces.append((posed(part, joints), part.faces))
             else:
                 pieces += (placed(part.vertices, part.faces, matrix) for matrix in matrices)
+            copied = 1 if joints is not None and part.joints.size else len(matrices)
+            names.append((PartName(name or called.name, called.material), copied * len(part.faces)))
     vertices, faces = join(pieces)
     if others and not len(faces):
         raise UnreadableError("no triangles, only points or lines")
     notes = [f"{others} x primitive left out: points, lines, or without positions"] if others else []
     notes += [f"{spare} x corner left out: no whole triangle"] if spare else []
-    return Scene(vertices, faces, (*container.notes, *unknown, *shown.notes, *notes), unit=1.0, up="y")
+    notes = [*container.notes, *unknown, *shown.notes, *notes]
+    return Scene(vertices, faces, tuple(notes), unit=1.0, up="y", parts=Parts.of(names))
 
 
 def _mesh(document: Document, node: Node) -> tuple[int, tuple[float, ...]]:

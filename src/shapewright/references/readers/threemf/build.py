@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.parts import PartName, Parts
 from shapewright.references.readers.scene_parts import Scene, join, placed, refuse_too_many
 from shapewright.references.readers.threemf.model import Model, Object, Use, read_model
 from shapewright.references.readers.threemf.package import Package, part_key, unpack
@@ -34,6 +35,11 @@ class _Place(NamedTuple):
     part: str
     number: int
     matrix: Floats
+    above: str = ""  # name of the nearest object that holds it and has one
+
+    def called(self, thing: Object) -> PartName:
+        """What the object here is called."""
+        return PartName(PartName.of(thing.name).name or self.above, PartName.of(thing.material).name)
 
 
 class _Size(NamedTuple):
@@ -47,7 +53,8 @@ def read_3mf(path: Path, data: bytes) -> Scene:
     """The triangles of a 3MF file's bytes, Z up, in the unit of its build.
 
     Objects stand where build items and components place them, in any part of the package. What only supports them is
-    left out. Raises UnreadableError, with the reason.
+    left out. Parts have the names of their objects, or of the next ones that hold them. Raises UnreadableError, with
+    the reason.
     """
     del path  # a package refers to nothing beside it
     package = unpack(data)
@@ -75,7 +82,8 @@ def read_3mf(path: Path, data: bytes) -> Scene:
     others = Counter(what for _, thing in shown for what in thing.others)
     notes += [f"{count} x {what} passed over" for what, count in others.items()]
     unit = models(root).unit * _MILLIMETRE
-    return Scene(vertices, faces, (*package.notes, *notes), unit, up="z")
+    parts = Parts.of((place.called(thing), len(thing.faces)) for place, thing in shown)
+    return Scene(vertices, faces, (*package.notes, *notes), unit, up="z", parts=parts)
 
 
 def _models(package: Package) -> _Models:
@@ -125,8 +133,9 @@ def _spread(models: _Models, place: _Place) -> Iterator[tuple[_Place, Object]]:
     thing = _find(models, place)
     yield place, thing
     if thing.kind in _LASTING:
+        name = place.called(thing).name
         for part in thing.parts:
-            yield from _spread(models, _target(models, part, place))
+            yield from _spread(models, _target(models, part, place)._replace(above=name))
 
 
 def _refuse_other_forms(thing: Object) -> None:

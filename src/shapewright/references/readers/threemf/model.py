@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,6 +51,8 @@ class Object:
     """An object of a part.
 
     Attributes:
+        name: what it is called, empty without a name.
+        material: of its triangles, where they have no other one; empty where it is not named.
         kind: "model", "surface", or a type of what supports it while it is made.
         vertices: (V, 3) of its own mesh.
         faces: (F, 3) of its own mesh.
@@ -60,6 +62,8 @@ class Object:
         others: elements of extensions that are not known, in words; one of them can be its whole form.
     """
 
+    name: str
+    material: str
     kind: str
     vertices: Floats
     faces: Ints
@@ -101,12 +105,13 @@ def read_model(data: bytes) -> Model:
     if unit not in _UNITS:
         raise UnreadableError(f"broken: it is in {unit[:60]!r}, which is no unit of 3MF")
     objects: dict[int, Object] = {}
+    materials = _materials(elements)
     for start, stop in _runs(elements):
         element = elements[start]
         number = _whole(element, "id")
         if number in objects:
             raise UnreadableError(f"broken: two objects have the id {number}")
-        objects[number] = _object(element, elements[start + 1 : stop], parts)
+        objects[number] = _object(element, elements[start + 1 : stop], parts, materials)
     items = (_use(each) for each in elements if each.depth == 2 and each.name == "item" and each.space == root.space)
     return Model(_UNITS[unit], objects, tuple(items))
 
@@ -129,7 +134,20 @@ def _runs(elements: Sequence[Element]) -> Iterator[tuple[int, int]]:
             start = i if (element.depth, element.name, element.space) == (2, "object", space) else None
 
 
-def _object(element: Element, below: Sequence[Element], parts: Cut) -> Object:
+def _materials(elements: Sequence[Element]) -> dict[tuple[str, str], str]:
+    """The names of base materials, by the id of their group and their index in it."""
+    names: dict[tuple[str, str], str] = {}
+    group, index = "", 0
+    for each in elements:
+        if each.name == "basematerials" and each.space == elements[0].space:
+            group, index = each.attributes.get("id", ""), 0
+        elif each.name == "base" and each.space == elements[0].space:
+            names[group, str(index)] = each.attributes.get("name", "")
+            index += 1
+    return names
+
+
+def _object(element: Element, below: Sequence[Element], parts: Cut, materials: Mapping[tuple[str, str], str]) -> Object:
     vertices, faces = np.empty((0, 3)), np.empty((0, 3))
     own = [each for each in below if each.space == element.space]
     for each in own:
@@ -142,7 +160,10 @@ def _object(element: Element, below: Sequence[Element], parts: Cut) -> Object:
     corners = faces.astype(np.int64)
     check_indices(corners.reshape(-1), len(vertices))
     foreign = [each for each in below if each.space != element.space]
+    looks = element.attributes.get("pid", ""), element.attributes.get("pindex", "0")
     return Object(
+        name=element.attributes.get("name", ""),
+        material=materials.get(looks, ""),
         kind=element.attributes.get("type", "model"),
         vertices=vertices,
         faces=corners,
