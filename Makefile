@@ -25,7 +25,7 @@ test: .venv/installed $(PAGE)
 
 # The tests that need the libraries of extras. Their environment sees all that .venv holds and adds only these libraries:
 # the extras of shapewright, and what only tests need.
-EXTRAS := cadquery,build123d
+EXTRAS := cadquery,build123d,points
 ONLY_TESTED := meshio pyvista vedo
 ADAPTERS := .venv-adapters/bin/python
 

@@ -12,7 +12,7 @@ from shapewright.references.readers.formats import EXTENSIONS
     [
         ("a.fbx", "FBX, which is not read: open it in Blender"),
         ("a.STP", "STEP, which is not read: export it from a CAD program"),
-        ("a.e57", "a point cloud, which is not read"),
+        ("a.ptx", "a point cloud, which is not read: open it in CloudCompare"),
         ("a.obj.gz", "an archive, which is not read: unpack it"),
         ("a.obj.dvc", "fetch the file with `dvc pull`"),
     ],

@@ -98,8 +98,8 @@ class TestFolder:
             find([folder])
         first, *more = str(error.value).splitlines()
         assert first == (
-            f"{folder} holds no shapes: looked for .3mf .glb .gltf .obj .off .ply .png .stl .svg and other pictures, "
-            "found 2 .fbx, 1 without extension, 1 .tga"
+            f"{folder} holds no shapes: looked for .3mf .glb .gltf .obj .off .ply .png .stl .svg, other "
+            "pictures, and points such as .las .pcd .xyz, found 2 .fbx, 1 without extension, 1 .tga"
         )
         assert more == [
             f"{name}: FBX, which is not read: open it in Blender and export it as GLB or OBJ"

@@ -7,7 +7,8 @@ from pathlib import Path
 _BLENDER = "open it in Blender and export it as GLB or OBJ"
 _CAD = "export it from a CAD program, such as FreeCAD, as STL or 3MF"
 _OWN = "export it from its own program as GLB, OBJ or STL"
-_POINTS = "points without faces; make a surface of it, for example in MeshLab, and save it as PLY"
+_POINTS = "open it in CloudCompare and save it as E57, LAS or PLY"
+_SPLATS = "open it in SuperSplat and save it as PLY"
 _DRAWN = "export it from its own program as SVG or PNG"
 _UNPACK = "unpack it"
 
@@ -33,8 +34,8 @@ _KINDS = {
     ("a model of a game", _OWN): "md2 md3 md5mesh mdl nif pmx pmd vox smd b3d ms3d mesh",
     ("VTK", "open it in ParaView and save its surface as PLY"): "vtk vtp vtu vti",
     ("a mesh of simulation", "save its surface as PLY or STL"): "msh inp bdf nas unv cgns med mphtxt",
-    ("a point cloud", _POINTS): "xyz pts pcd las laz e57 ptx pwn",
-    ("Gaussian splats", _POINTS): "splat spz ksplat",
+    ("a point cloud", _POINTS): "ptx pwn fls fws zfs rcp rcs pod",
+    ("packed Gaussian splats", _SPLATS): "spz ksplat sog",
     ("HEIC", "save it as JPEG or PNG"): "heic heif",
     ("a drawing", _DRAWN): "dxf dwg eps ai pdf cdr psd xcf kra drawio vsdx emf wmf",
     ("an archive", _UNPACK): "rar 7z gz bz2 xz zst z lz4 zip tar tgz tbz2 txz cab iso",

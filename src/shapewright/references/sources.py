@@ -18,7 +18,7 @@ from shapewright.references.archives import is_archive, stem, unpacked
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.orientation import Orientation
 from shapewright.references.other_kinds import refusal
-from shapewright.references.readers.formats import EXTENSIONS, MESHES
+from shapewright.references.readers.formats import CLOUDS, EXTENSIONS, MESHES
 from shapewright.references.readers.pictures import KINDS as PICTURES
 from shapewright.storage import printable
 
@@ -26,7 +26,7 @@ Origin: TypeAlias = str | os.PathLike[str]
 _SHAPENET = ("models", "model_normalized.obj")
 MANIFEST = ".csv"
 """The extension of a table that lists files."""
-_LOOKED_FOR = " ".join(sorted((*MESHES, ".svg", ".png"))) + " and other pictures"
+_LOOKED_FOR = " ".join(sorted((*MESHES, ".svg", ".png"))) + ", other pictures, and points such as .las .pcd .xyz"
 _SHOWN = 5
 _OURS = frozenset(["iteration.json", "samples.json"])
 """Files of which one is in each run and in each folder of samples: their shapes are replicas, and no references."""
@@ -259,7 +259,7 @@ def _is_shape(path: Path) -> bool:
 
 
 def _is_mesh(path: Path) -> bool:
-    return path.suffix.lower() in MESHES
+    return path.suffix.lower() in (*MESHES, *CLOUDS)
 
 
 def _is_hidden(name: str) -> bool:

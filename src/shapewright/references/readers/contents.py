@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from shapewright.shapes import Shape
+from shapewright.shapes import ReferenceShape
 
 
 @dataclass(frozen=True, eq=False)
@@ -13,13 +13,13 @@ class Contents:
     """What a reader finds in a file.
 
     Attributes:
-        shape: the triangles in one mesh, or the drawing, in the file's own units and axes.
+        shape: the triangles in one mesh, the points, or the drawing, in the file's own units and axes.
         notes: what of the file was left out.
         unit: the unit of the shape in metres, where the file or its format states it; else None.
         up: the axis that points up, among x, y, z, -x, -y, -z, where the file or its format states it; else None.
     """
 
-    shape: Shape
+    shape: ReferenceShape
     notes: tuple[str, ...] = ()
     unit: float | None = None
     up: str | None = None
@@ -57,6 +57,9 @@ _SIGNS: tuple[tuple[bytes, str], ...] = (
     (rb"\s*(?:<\?xml.*?>\s*)?(?:<!--.*?-->\s*)*<COLLADA", "a Collada file"),
     (rb"\s*<", "XML"),
     (rb"ply\s", "a PLY"),
+    (rb"LASF", "a LAS"),
+    (rb"ASTM-E57", "an E57"),
+    (rb"# \.PCD|VERSION [.0]*7", "a PCD"),
     (rb"\s*(?:ST|C|N|4|n)*OFF\s", "an OFF"),
     (rb"\s*solid\s", "an STL"),
     (rb"\s*[{\[]", "JSON"),

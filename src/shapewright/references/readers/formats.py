@@ -1,4 +1,4 @@
-"""One file of a collection, read into the triangles or the drawing that it holds, in its own units and axes."""
+"""One file of a collection, read into the triangles, points or drawing that it holds, in its own units and axes."""
 
 from __future__ import annotations
 
@@ -10,6 +10,12 @@ import numpy as np
 from shapewright.references.errors import UnreadableError
 from shapewright.references.other_kinds import refusal
 from shapewright.references.parts import Parts
+from shapewright.references.readers.clouds.cloud import Cloud, usable
+from shapewright.references.readers.clouds.columns import read_pts, read_xyz
+from shapewright.references.readers.clouds.e57 import read_e57
+from shapewright.references.readers.clouds.gaussians import read_splat
+from shapewright.references.readers.clouds.las import read_las
+from shapewright.references.readers.clouds.pcd import read_pcd
 from shapewright.references.readers.collada.scene import read_collada
 from shapewright.references.readers.contents import Contents, held
 from shapewright.references.readers.gltf.scene import read_gltf
@@ -23,9 +29,9 @@ from shapewright.references.readers.scene_parts import Scene
 from shapewright.references.readers.stl import read_stl
 from shapewright.references.readers.svg import read_svg
 from shapewright.references.readers.threemf.build import read_3mf
-from shapewright.shapes import Drawing, Floats, Ints, Mesh, Shape
+from shapewright.shapes import Drawing, Floats, Ints, Mesh, ReferenceShape
 
-_POLYGONS: dict[str, Callable[[bytes], Polygons]] = {
+_POLYGONS: dict[str, Callable[[bytes], Polygons | Cloud]] = {
     ".obj": read_obj,
     ".off": read_off,
     ".ply": read_ply,
@@ -38,6 +44,15 @@ _SCENES: dict[str, Callable[[Path, bytes], Scene]] = {
     ".dae": read_collada,
     ".zae": read_collada,
 }
+_CLOUDS: dict[str, Callable[[bytes], Cloud]] = {
+    ".xyz": read_xyz,
+    ".xyzn": read_xyz,
+    ".xyzrgb": read_xyz,
+    ".pts": read_pts,
+    ".pcd": read_pcd,
+    ".splat": read_splat,
+}
+_CLOUD_FILES: dict[str, Callable[[Path, bytes], Cloud]] = {".las": read_las, ".laz": read_las, ".e57": read_e57}
 _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {
     ".svg": read_svg,
     ".svgz": read_svg,
@@ -46,7 +61,9 @@ _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {
 MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF", "DAE", "ZAE")
 """Formats of meshes that are read, as people write them. The extension of a file is the name in small letters."""
 MESHES = tuple(f".{name.lower()}" for name in MESH_FORMATS)
-EXTENSIONS = tuple(sorted((*MESHES, *_DRAWINGS)))
+CLOUDS = (*_CLOUDS, *_CLOUD_FILES)
+"""Extensions of files that hold points alone; PLY, OBJ and OFF without faces do as well."""
+EXTENSIONS = tuple(sorted((*MESHES, *CLOUDS, *_DRAWINGS)))
 
 _FETCH = "where git-annex or DVC keeps the files, fetch them with `git annex get` or `dvc pull`"
 _LEAST_AREA = 1e-12
@@ -56,14 +73,14 @@ _AT_ONCE = 100_000
 """Triangles whose areas are held in memory at once, 30 MB of them."""
 
 
-def read(path: Path) -> tuple[Shape, tuple[str, ...]]:
+def read(path: Path) -> tuple[ReferenceShape, tuple[str, ...]]:
     """The shape of ``contents`` and its notes; raises UnreadableError as it does."""
     found = contents(path)
     return found.shape, found.notes
 
 
 def contents(path: Path) -> Contents:
-    """The triangles of a file in one mesh, or its drawing, with notes on what was left out, its unit and its up axis.
+    """The triangles of a file in one mesh, its points or its drawing; with notes on what was left out, its unit and up.
 
     Polygons are triangulated and scenes flattened. Names of parts and materials become labels; textures are ignored.
     Triangles stay unchanged, inward, doubled or flat. The reader leaves out vertices that no triangle uses and, with a
@@ -88,8 +105,12 @@ def contents(path: Path) -> Contents:
     try:
         if kind in _DRAWINGS:
             return Contents(*_DRAWINGS[kind](data))
+        if kind in _CLOUDS or kind in _CLOUD_FILES:
+            return _points(_CLOUDS[kind](data) if kind in _CLOUDS else _CLOUD_FILES[kind](path, data))
         if kind in _POLYGONS:
             polygons = _polygons(kind, data)
+            if isinstance(polygons, Cloud):
+                return _points(polygons)
             vertices, notes = polygons.vertices, polygons.notes
             scene = Scene(vertices, triangulate(polygons), notes, parts=polygons.parts_of_triangles)
         else:
@@ -105,11 +126,16 @@ def contents(path: Path) -> Contents:
     return Contents(mesh, (*scene.notes, *lost), scene.unit, scene.up)
 
 
-def _polygons(kind: str, data: bytes) -> Polygons:
-    """The polygons of a file. Raises UnreadableError, which says what the file holds in place of polygons."""
+def _points(cloud: Cloud) -> Contents:
+    points, notes = usable(cloud)
+    return Contents(points, notes, cloud.unit, cloud.up)
+
+
+def _polygons(kind: str, data: bytes) -> Polygons | Cloud:
+    """The polygons or points of a file. Raises UnreadableError, which says what the file holds in place of polygons."""
     try:
         polygons = _POLYGONS[kind](data)
-        if len(polygons.counts):
+        if isinstance(polygons, Cloud) or len(polygons.counts):
             return polygons
         why = "it has no polygons"
     except UnreadableError as error:

@@ -15,6 +15,7 @@ import numpy as np
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.parts import PartName, Parts
+from shapewright.references.readers.clouds.cloud import Cloud
 from shapewright.references.readers.polygons import Polygons
 from shapewright.references.readers.text import Rows, lines, numbers, plain, rows, shown
 from shapewright.shapes import Floats, Ints
@@ -34,8 +35,11 @@ _AT_ONCE = 10_000
 _COMMENT = re.compile(rb"(?<!\d\.)#[^\n]*+")  # but not in 1.#IND
 
 
-def read_obj(data: bytes) -> Polygons:
-    """The polygons of an OBJ file's bytes. Raises UnreadableError with the line that cannot be understood."""
+def read_obj(data: bytes) -> Polygons | Cloud:
+    """The polygons of an OBJ file's bytes, or its vertices where it has nothing else.
+
+    Raises UnreadableError with the line that cannot be understood.
+    """
     points, corners, counts = [np.empty((0, 3))], [np.empty(0, np.int64)], [np.empty(0, np.int64)]
     others: Counter[bytes] = Counter()
     above = polygons = 0
@@ -68,6 +72,8 @@ def read_obj(data: bytes) -> Polygons:
     ends = [*(start for _, start in begun[1:]), polygons]
     parts = Parts.of((part, end - start) for (part, start), end in zip(begun, ends, strict=True))
     notes = tuple(_notes(others))
+    if above and not polygons and not others.keys() & (_SURFACES | {b"l"}):
+        return Cloud(np.concatenate(points), notes=notes)
     return Polygons(np.concatenate(points), np.concatenate(corners), np.concatenate(counts), notes, parts)
 
 

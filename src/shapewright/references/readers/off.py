@@ -11,6 +11,7 @@ import re
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.clouds.cloud import Cloud
 from shapewright.references.readers.polygons import Polygons
 from shapewright.references.readers.text import PADDING, Rows, plain, rows, shown
 from shapewright.shapes import Floats, Ints
@@ -22,8 +23,11 @@ _COLOUR = 4  # values of a colour, which some programs write undeclared
 _COMMENT = re.compile(rb"(?<!\d\.)#[^\r\n]*+")  # but not in 1.#IND
 
 
-def read_off(data: bytes) -> Polygons:
-    """The polygons of an OFF file's bytes. Raises UnreadableError for another kind of file, or one that ends early."""
+def read_off(data: bytes) -> Polygons | Cloud:
+    """The polygons of an OFF file's bytes, or its vertices where it has no faces.
+
+    Raises UnreadableError for another kind of file, or one that ends early.
+    """
     if _BINARY.match(data):
         raise UnreadableError("binary OFF, which is not read; save it as text, or as PLY")
     text = plain(data).rstrip(PADDING)
@@ -44,7 +48,7 @@ def read_off(data: bytes) -> Polygons:
     counted = (int(table.values[0]), int(table.values[1]))
     first = _first_row(table)
     if len(table) - first == sum(counted):
-        return _by_lines(table, first, counted, width)
+        return _or_points(_by_lines(table, first, counted, width))
     declared = width + 3 * (b"N" in kind) + 4 * (b"C" in kind) + 2 * (b"ST" in kind)
     polygons = None if _is_usual(table, first, width, declared) else _by_words(table, counted, width, declared)
     if polygons is None:
@@ -52,7 +56,11 @@ def read_off(data: bytes) -> Polygons:
         if len(table) - 1 < sum(counted):
             raise UnreadableError(f"cut short: {announced}, fewer there")
         raise UnreadableError(f"broken: {announced}, and it holds more")
-    return polygons
+    return _or_points(polygons)
+
+
+def _or_points(polygons: Polygons) -> Polygons | Cloud:
+    return polygons if len(polygons.counts) else Cloud(polygons.vertices, notes=polygons.notes)
 
 
 def _first_row(table: Rows) -> int:

@@ -1,4 +1,4 @@
-"""Stanford PLY, ASCII or binary, with polygons of any and of mixed numbers of corners, and triangle strips.
+"""Stanford PLY, ASCII or binary, with polygons of any and of mixed numbers of corners, triangle strips, or points.
 
 Not through trimesh, which cannot read binary files that mix triangles with quads, and cuts concave polygons as fans.
 """
@@ -6,11 +6,14 @@ Not through trimesh, which cannot read binary files that mix triangles with quad
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.clouds import gaussians
+from shapewright.references.readers.clouds.cloud import Cloud
 from shapewright.references.readers.ply_tables import TYPES, Column, Element, Property, ascii_tables, binary_tables
 from shapewright.references.readers.polygons import Polygons
 from shapewright.references.readers.text import PADDING, plain, shown
@@ -18,12 +21,16 @@ from shapewright.shapes import Floats, Ints
 
 _BEGIN = re.compile(rb"ply[ \t]*(\r\n|\r|\n)", re.IGNORECASE)
 _ORDER = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_NORMALS = ("nx", "ny", "nz")
 _KNOWN = ("vertex", "face", "tristrips", "edge")
 _RESTART = -1  # in the list of a strip: a new strip begins
 
 
-def read_ply(data: bytes) -> Polygons:
-    """The polygons of a PLY file's bytes. Raises UnreadableError for a file that is broken or cut short."""
+def read_ply(data: bytes) -> Polygons | Cloud:
+    """The polygons of a PLY file's bytes, or its points where it has no faces, strips or edges.
+
+    Raises UnreadableError for a file that is broken or cut short.
+    """
     encoding, elements, body = _header(plain(data))
     if encoding == "ascii":
         tables, notes = ascii_tables(elements, body.rstrip(PADDING))
@@ -38,6 +45,8 @@ def read_ply(data: bytes) -> Polygons:
     if odd and not (faces or strips):
         raise UnreadableError(f"it holds no faces but elements {odd[0].name!r}, which are not read")
     notes = (*notes, *(f"{e.count} elements {e.name!r} left out" for e in odd))
+    if not (faces and len(faces.counts)) and not strips and not any(e.count for e in elements if e.name == "edge"):
+        return _cloud(points, tables["vertex"], notes)
     corners, counts = (_whole(faces.values), faces.counts) if faces else (np.empty(0, np.int64), np.empty(0, np.int64))
     if strips:
         triangles = _triangles(_whole(strips.values), strips.counts)
@@ -79,7 +88,19 @@ def _header(data: bytes) -> tuple[str, tuple[Element, ...], bytes]:
 def _points(columns: Mapping[str, Column]) -> Floats:
     if missing := [axis for axis in "xyz" if axis not in columns or columns[axis].is_list]:
         raise UnreadableError(f"its vertices have no property {missing[0]!r}, only {', '.join(columns)}")
-    return np.stack([columns[axis].values.astype(np.float64) for axis in "xyz"], axis=-1)
+    return _stacked(columns, "xyz")
+
+
+def _stacked(columns: Mapping[str, Column], names: Iterable[str]) -> Floats:
+    return np.stack([columns[name].values.astype(np.float64) for name in names], axis=-1)
+
+
+def _cloud(points: Floats, columns: Mapping[str, Column], notes: tuple[str, ...]) -> Cloud:
+    if gaussians.is_gaussians(columns):
+        splats = gaussians.of_ply(points, columns["opacity"].values)
+        return replace(splats, notes=(*notes, *splats.notes))
+    known = all(name in columns and not columns[name].is_list for name in _NORMALS)
+    return Cloud(points, _stacked(columns, _NORMALS) if known else None, notes=notes)
 
 
 def _lists(tables: Mapping[str, Mapping[str, Column]], name: str) -> Column | None:

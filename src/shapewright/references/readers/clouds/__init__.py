@@ -1,0 +1,1 @@
+"""Files of points: what scanners, samplers and reconstructions write, without faces."""
