@@ -98,7 +98,7 @@ class TestFolder:
             find([folder])
         first, *more = str(error.value).splitlines()
         assert first == (
-            f"{folder} holds no shapes: looked for .3mf .glb .gltf .obj .off .ply .png .stl .svg, other "
+            f"{folder} holds no shapes: looked for .3mf .dae .glb .gltf .obj .off .ply .png .stl .svg .zae, other "
             "pictures, and points such as .las .pcd .xyz, found 2 .fbx, 1 without extension, 1 .tga"
         )
         assert more == [
