@@ -45,8 +45,8 @@ class Calls(Generic[Argument, Result]):
         """End the processes; further calls start others."""
         self._pool.close()
 
-    def results(self, calls: Sequence[tuple[Argument, Limits]]) -> list[Result | Loss]:
-        """What the function returns for each argument, or how the call was lost; in order.
+    def results(self, calls: Sequence[tuple[Argument, Limits]], most: int | None = None) -> list[Result | Loss]:
+        """What the function returns for each argument, or how the call was lost; in order. most: processes at most.
 
         A call that ends a process in which others were answered before is made once more, in a new process: so none is
         lost by what others left behind.
@@ -69,7 +69,7 @@ class Calls(Generic[Argument, Result]):
                 return None
             return caller
 
-        self._pool.run(tasks, serve)
+        self._pool.run(tasks, serve, most=most)
         return [results[number] for number in range(len(calls))]
 
 

@@ -33,6 +33,7 @@ class Pool(Generic[W]):
         tasks: Tasks[Task],
         serve: Callable[[W, Task, threading.Event], W | None],
         tick: Callable[[], object] = lambda: None,
+        most: int | None = None,
     ) -> None:
         """Serve tasks until there are none. What goes wrong in ``serve``, and in ``tick``, ends all and is raised.
 
@@ -40,6 +41,7 @@ class Pool(Generic[W]):
             tasks: the tasks; ``serve`` may add more.
             serve: serves one, and returns the worker, or None where that had to be ended. The event says: break off.
             tick: called every 20 ms.
+            most: workers at most, where fewer than ``count`` are wanted.
         """
         stop = threading.Event()
 
@@ -55,7 +57,7 @@ class Pool(Generic[W]):
                 self.idle.append(worker)
 
         with ThreadPoolExecutor(self.count) as threads:
-            waiting = {threads.submit(work) for _ in range(min(self.count, tasks.qsize()))}
+            waiting = {threads.submit(work) for _ in range(min(self.count, tasks.qsize(), most or self.count))}
             try:
                 while waiting:
                     done, waiting = wait(waiting, timeout=0.02)

@@ -10,87 +10,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import ArrayLike
-
 from shapewright.references import sources
 from shapewright.references.errors import CollectionError, UnreadableError
-from shapewright.references.orientation import QUARTER_TURNS, AxesBy, Orientation
+from shapewright.references.orientation import Orientation
 from shapewright.references.readers import formats as files
-from shapewright.shapes import Drawing, Floats, Mesh, Points, ReferenceShape, Transform, shape_digest
+from shapewright.references.reading import Readers
+from shapewright.references.reference import Reference, normalised
+from shapewright.shapes import Drawing, Mesh
 from shapewright.shapes.conversion import as_reference
 from shapewright.storage import printable
 
 _REASONS = 5
-
-
-@dataclass(frozen=True, eq=False)
-class Reference:
-    """One shape to replicate.
-
-    Attributes:
-        name: unique in its collection.
-        path: its file, of one in an archive the paths of the archive and inside of it; None for a shape made in memory.
-        shape: the mesh or points, Y up, front towards +Z, or the drawing; the bounding box is centred and its largest
-            side is 1.
-        transform: how it was centred and scaled, after it was turned.
-        orientation: how a mesh or points were turned.
-        notes: what of the file was left out.
-        axes_by: who says that it is to be turned so.
-        unit: that of the file, in metres, where the file or its format states it; else None.
-    """
-
-    name: str
-    path: Path | None
-    shape: ReferenceShape
-    transform: Transform
-    orientation: Orientation = field(default_factory=Orientation)
-    notes: tuple[str, ...] = ()
-    axes_by: AxesBy = "default"
-    unit: float | None = None
-
-    @cached_property
-    def digest(self) -> str:
-        """A key for the normalised geometry."""
-        return shape_digest(self.shape)
-
-    @property
-    def size(self) -> Floats:
-        """(3,): width, height and depth as it stands, of a drawing (2,), in metres; in the file's units where ``unit``
-        is None."""
-        size = (self.shape.bounds[1] - self.shape.bounds[0]) / self.transform.scale
-        return np.asarray(size * (self.unit or 1.0))
-
-    def to_original(self, points: ArrayLike) -> Floats:
-        """Points (..., 3), of a drawing (..., 2), in the frame of ``shape``, back in the file's own units and axes."""
-        original = self.transform.invert(points)
-        return original if isinstance(self.shape, Drawing) else self.orientation.invert(original)
-
-    def turned(self, quarters: int) -> Reference:
-        """The same shape after a number of quarter turns about the up axis, from the front towards the right.
-
-        A drawing stays as it is.
-        """
-        if isinstance(self.shape, Drawing):
-            return self
-        turn = QUARTER_TURNS[quarters % 4]
-        transform = Transform(tuple(turn @ self.transform.centre), self.transform.scale)
-        return replace(
-            self,
-            shape=self.shape.transformed(turn),
-            transform=transform,
-            orientation=self.orientation.turned(quarters),
-        )
-
-    def __repr__(self) -> str:
-        match self.shape:
-            case Mesh():
-                size = f"{len(self.shape.faces)} faces"
-            case Points():
-                size = f"{len(self.shape)} points"
-            case Drawing():
-                size = "drawing"
-        return f"Reference({self.name!r}, {size})"
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,11 +76,14 @@ class Collection:
         origins = [source] if isinstance(source, str | os.PathLike) else list(source)
         references: list[Reference] = []
         skipped: dict[Path, str] = {}
-        for file in sources.find(origins, up, front):
-            try:
-                references.append(read_reference(file))
-            except UnreadableError as error:
-                skipped[file.place] = printable(str(error))
+        found = sources.find(origins, up, front)
+        with Readers() as readers:
+            results = readers.read(found)
+        for file, result in zip(found, results, strict=True):
+            if isinstance(result, UnreadableError):
+                skipped[file.place] = printable(str(result))
+            else:
+                references.append(result)
         if not references:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
@@ -207,25 +140,6 @@ class Collection:
         return f"Collection({len(self)} references from {self.source}{skipped})"
 
 
-def read_reference(source: sources.Source) -> Reference:
-    """One file of those that ``sources.find`` lists. Raises UnreadableError, with the reason."""
-    if source.refusal:
-        raise UnreadableError(source.refusal)
-    found = files.contents(source.path)
-    by_format = found.up is not None and not source.by_author
-    orientation = Orientation.of(found.up) if found.up and by_format else source.orientation
-    by: AxesBy = "author" if source.by_author else "format" if by_format else "default"
-    reference = _normalised(source.name, source.place, found.shape, orientation, found.notes)
-    return replace(reference, axes_by=by, unit=found.unit)
-
-
-def _normalised(
-    name: str, path: Path | None, shape: ReferenceShape, orientation: Orientation, notes: tuple[str, ...]
-) -> Reference:
-    turned = shape if isinstance(shape, Drawing) else shape.transformed(orientation.matrix)
-    return Reference(name, path, turned.normalised(), turned.normalisation(), orientation, notes)
-
-
 def _in_memory(name: str, value: Any, orientation: Orientation) -> Reference:
     try:
         shape = as_reference(value)
@@ -235,7 +149,7 @@ def _in_memory(name: str, value: Any, orientation: Orientation) -> Reference:
         raise CollectionError(f"{name}: {which}") from error
     except ValueError as error:
         raise CollectionError(f"{name}: {error}") from error
-    return _normalised(name, None, shape, orientation, notes)
+    return normalised(name, None, shape, orientation, notes)
 
 
 def _nothing_readable(skipped: Mapping[Path, str]) -> str:

@@ -6,6 +6,7 @@ import pytest
 
 from broken_disk import full_after, hidden, shown
 from shapewright.modelling.solids import box
+from shapewright.references.reading import Readers
 from shapewright.shapes.files import encode
 from shapewright.studio.bench.gallery import Gallery
 from shapewright.studio.project.listing import Listing, Origin, listing
@@ -15,7 +16,7 @@ def test_a_picture_is_kept_whole_or_not_at_all(tmp_path):
     (tmp_path / "references").mkdir()
     (tmp_path / "references" / "cube.ply").write_bytes(encode(box(1).mesh(), "ply"))
     cache = tmp_path / "cache"
-    gallery = Gallery(listing(Origin(str(tmp_path / "references"))), cache)
+    gallery = Gallery(listing(Origin(str(tmp_path / "references"))), cache, Readers())
     with pytest.raises(OSError, match="File too large"), full_after(100):
         gallery.picture("cube")
     assert not shown(cache) and not hidden(cache)
@@ -30,5 +31,5 @@ def test_a_gallery_removes_what_killed_writers_left_long_ago(tmp_path):
     leftover.touch()
     young.touch()
     os.utime(leftover, (0, 0))
-    Gallery(Listing({}, {}), tmp_path / "cache")
+    Gallery(Listing({}, {}), tmp_path / "cache", Readers())
     assert not leftover.exists() and young.exists()

@@ -115,7 +115,7 @@ def contents(path: Path) -> Contents:
             scene = Scene(vertices, triangulate(polygons), notes, parts=polygons.parts_of_triangles)
         else:
             scene = _SCENES[kind](path, data)
-    except UnreadableError:
+    except (UnreadableError, MemoryError):
         raise
     except Exception as error:  # a broken file can make a parser fail in any way
         raise UnreadableError(f"broken: {type(error).__name__}: {error}") from error

@@ -132,6 +132,8 @@ def _pixels(data: bytes) -> tuple[_Grey, float, tuple[str, ...]]:
         except (Image.DecompressionBombWarning, Image.DecompressionBombError) as error:
             most = (Image.MAX_IMAGE_PIXELS or 0) // 10**6
             raise UnreadableError(f"too large: more than {most} million pixels") from error
+        except MemoryError:
+            raise
         except Exception as error:  # a broken file can make a decoder fail in any way
             raise UnreadableError(f"broken: the picture cannot be decoded: {error}") from error
 

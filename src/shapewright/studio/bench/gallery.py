@@ -7,7 +7,9 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Generic, TypeVar
 
-from shapewright.references.collection import Reference, read_reference
+from shapewright.references.errors import UnreadableError
+from shapewright.references.reading import Readers
+from shapewright.references.reference import Reference
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.shapes import Mesh, Points, ReferenceShape
 from shapewright.storage import remove_leftovers, whole_file
@@ -44,10 +46,12 @@ class Gallery:
     """The references of a listing.
 
     cache: a folder for their pictures, None for none.
+    readers: read them.
     """
 
-    def __init__(self, listed: Listing, cache: Path | None) -> None:
+    def __init__(self, listed: Listing, cache: Path | None, readers: Readers) -> None:
         self.listed = listed
+        self._readers = readers
         self._cache = cache
         if cache:  # once, not with every picture: the folder holds those of all projects
             remove_leftovers(cache / PICTURES)
@@ -55,8 +59,13 @@ class Gallery:
 
     def __getitem__(self, slug: str) -> Reference:
         """Raises KeyError for a slug that is not known, UnreadableError for a file that cannot be read."""
-        source = self.listed.sources[slug]
-        return self._shelf.get(slug) or self._shelf.put(slug, read_reference(source))
+        known = self._shelf.get(slug)
+        if known:
+            return known
+        (read,) = self._readers.read([self.listed.sources[slug]])
+        if isinstance(read, UnreadableError):
+            raise read
+        return self._shelf.put(slug, read)
 
     def picture(self, slug: str) -> bytes:
         """PNG of a reference, kept in the cache from now on. Raises as ``[]`` does."""

@@ -16,6 +16,7 @@ from typing import Any, BinaryIO
 from shapewright.judging.judge import target_of
 from shapewright.judging.target import Target
 from shapewright.references.errors import CollectionError, UnreadableError
+from shapewright.references.reading import Readers
 from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.splats import discs
 from shapewright.rendering.thumbnails import thumbnail
@@ -93,7 +94,8 @@ class Bench:
 
     def __init__(self, answers: BinaryIO, inbox: Inbox, workshop: Workshop) -> None:
         self._answers, self._inbox, self._workshop = answers, inbox, workshop
-        self._gallery = Gallery(Listing({}, {}), None)
+        self._readers = Readers(1)
+        self._gallery = Gallery(Listing({}, {}), None, self._readers)
         self._targets: Shelf[Target] = Shelf(_MEMORY, _bytes)
         self._colours: ResidualColours | None = None
         self._cache: Path | None = None
@@ -126,6 +128,7 @@ class Bench:
                     self._fetch(request)
                 case messages.End():
                     self._workshop.close()
+                    self._readers.close()
                     return
 
     def _advance(self, name: str) -> None:
@@ -148,7 +151,7 @@ class Bench:
             listed = listing(request.origin)
         except CollectionError:  # the server lists the references too, and reports it to the author
             listed = Listing({}, {})
-        self._gallery = Gallery(listed, self._cache)
+        self._gallery = Gallery(listed, self._cache, self._readers)
 
     def _draw(self, slugs: list[Slug]) -> Iterator[None]:
         for slug in in_turn([slug for slug in slugs if slug in self._gallery.listed.sources], lambda: self._first):

@@ -10,7 +10,7 @@ import shapely
 
 from shapewright.judging.target import Measures, Target
 from shapewright.judging.verdict import Evidence
-from shapewright.references.collection import Reference
+from shapewright.references.reference import Reference
 from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.studio.bench.residual_colours import LIMIT, Residual
 from shapewright.studio.bench.workshop import Built

@@ -36,6 +36,8 @@ def decode(data: memoryview) -> Decoded:
 
     try:
         mesh = DracoPy.decode(bytes(data))
+    except MemoryError:
+        raise
     except Exception as error:  # whatever the library raises, the stream is broken
         raise UnreadableError(f"broken: its Draco compression cannot be read ({error})") from error
     faces = np.asarray(getattr(mesh, "faces", np.empty((0, 3))), dtype=np.int64).reshape(-1, 3)
