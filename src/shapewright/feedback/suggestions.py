@@ -16,6 +16,7 @@ from shapewright.feedback.ideas.hypothesis import Hypothesis
 from shapewright.feedback.ideas.proposal import Misfit
 from shapewright.feedback.ideas.proposals import proposals
 from shapewright.feedback.ideas.rule_hypotheses import Study, rule_hypotheses
+from shapewright.feedback.parts.gallery import Gallery
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.trials.cards import Example, card
 from shapewright.feedback.trials.change import Change
@@ -31,6 +32,7 @@ from shapewright.progress import Stages
 from shapewright.rules.library import library
 from shapewright.rules.rule import Rule
 from shapewright.shapes import Mesh
+from shapewright.storage import cache_folder
 from shapewright.threads import in_threads
 
 EVALUATIONS = 4_500
@@ -108,7 +110,9 @@ def _misfits(cases: Sequence[Case], judge: Judge, rules: Sequence[Rule]) -> list
     bases = dict(
         zip(studied, in_threads(lambda case: _base(case, judge), studied, judge.settings.workers), strict=True)
     )
-    shared = rule_hypotheses(list(bases.values()), rules, judge.settings.workers or 1)
+    gallery = Gallery.opened(cache_folder())
+    shared = rule_hypotheses(list(bases.values()), rules, judge.settings.workers or 1, gallery)
+    gallery.keep()
     of_rules = {case.row: several for case, several in zip(studied, shared, strict=True)}
 
     def study(case: Case) -> Misfit:

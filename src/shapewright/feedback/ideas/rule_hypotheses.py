@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from shapewright.feedback.ideas.hypothesis import Costs, Hypothesis, priced
+from shapewright.feedback.parts.gallery import Gallery
 from shapewright.feedback.parts.lack import Lack
 from shapewright.feedback.parts.rule_pieces import Gain, fitted, retrieved
 from shapewright.feedback.surfaces.residuals import Residuals
@@ -36,10 +37,12 @@ class Study:
     costs: Costs
 
 
-def rule_hypotheses(studies: Sequence[Study], rules: Sequence[Rule], workers: int) -> list[list[Hypothesis]]:
+def rule_hypotheses(
+    studies: Sequence[Study], rules: Sequence[Rule], workers: int, gallery: Gallery
+) -> list[list[Hypothesis]]:
     """For each study the hypotheses with one rule that the studies share, the best first; none where none helps."""
     lacks = in_threads(_lacks, studies, workers)
-    gains = in_threads(lambda own: _gains(own, rules), lacks, workers)
+    gains = in_threads(lambda own: _gains(own, rules, gallery), lacks, workers)
     chosen = _shared(gains)
 
     def tried(row: int) -> list[Hypothesis]:
@@ -58,9 +61,10 @@ def _lacks(study: Study) -> dict[tuple[str, ...], Lack]:
     return {removed: Lack.of(study.differences, removed) for removed in without}
 
 
-def _gains(lacks: Mapping[tuple[str, ...], Lack], rules: Sequence[Rule]) -> dict[Key, Gain]:
+def _gains(lacks: Mapping[tuple[str, ...], Lack], rules: Sequence[Rule], gallery: Gallery) -> dict[Key, Gain]:
     """What each rule brings beside all parts, and in place of each."""
-    return {(removed, name): gain for removed, lack in lacks.items() for name, gain in retrieved(lack, rules).items()}
+    found = {removed: retrieved(lack, rules, gallery) for removed, lack in lacks.items()}
+    return {(removed, name): gain for removed, several in found.items() for name, gain in several.items()}
 
 
 def _shared(gains: Sequence[Mapping[Key, Gain]]) -> list[Key]:

@@ -9,18 +9,19 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.distance import cdist
 
 from shapewright.comparison.surfaces import Samples
 from shapewright.feedback.parts.decomposition import decompose
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.surfaces.residuals import Residuals
+from shapewright.feedback.surfaces.tangent_planes import tangent_distances
 from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.shapes import Floats, Mesh, Transform
 
 # Where nothing else is said, chosen by eye on first versions of vessels and buildings.
 _POINTS = 250  # of the reference, that are compared
 _NEAR = 0.025  # of the reference's largest extent: points so far apart are e^-1 of a match
+_NO_MATCH = 4.0  # of these: points so far apart are no match at all, e^-16 of one
 _APART = (0.02, 0.05, 0.09)  # of the same: how far points are from the replica that are taken to be missing together
 _FAR = 0.2  # of the same: distances beyond count as this
 _BOXES, _SAME = 5, 0.6  # boxes of what is missing, at most; intersection over union from which on two are one
@@ -91,10 +92,11 @@ class Lack:
 
     def gain(self, piece: Samples) -> float:
         """How much better all match, of 1, when a piece is added. piece: points of its surface."""
-        there = self.reference.nearness(self.placement.apply(piece.points), _FAR)
+        there = self.reference.nearness(self.placement.apply(piece.points), _NO_MATCH * _NEAR)
         here = float(_matching(there, _NEAR).mean())
         some, before = self._some
-        after = np.minimum(before, _distances(some, piece))
+        spacing = math.sqrt(piece.area / len(piece.points))
+        after = np.minimum(before, tangent_distances(some, piece.points, piece.normals, spacing))
         precision = (self.kept * self.area + here * piece.area) / (self.area + piece.area)
         return self._score(after, precision) - self._now
 
@@ -115,16 +117,6 @@ class Lack:
 
 def _matching(apart: Floats, near: float) -> Floats:
     return np.asarray(np.exp(-np.square(np.minimum(apart / near, 9.0))))
-
-
-def _distances(points: Floats, piece: Samples) -> Floats:
-    """Of points (N, 3) to the tangent planes at the nearest points of a piece, near to these."""
-    apart = cdist(points, piece.points)
-    nearest = apart.argmin(axis=1)
-    straight = apart[np.arange(len(points)), nearest]
-    above = np.abs(((points - piece.points[nearest]) * piece.normals[nearest]).sum(axis=1))
-    aside = np.sqrt(np.maximum(straight**2 - above**2, 0.0)) - math.sqrt(piece.area / len(piece.points))
-    return np.asarray(np.hypot(above, np.maximum(aside, 0.0)))
 
 
 def _subset(surface: VisibleSurface, rows: NDArray[np.bool_]) -> VisibleSurface:

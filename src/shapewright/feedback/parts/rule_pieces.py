@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from shapewright.comparison.surfaces import Samples, sample
+from shapewright.feedback.parts.gallery import ASPECT, SAMPLES, Form, Gallery, form_of
 from shapewright.feedback.parts.lack import Lack
 from shapewright.feedback.parts.pieces import Kind, Piece
 from shapewright.parameters import Integer, Scalar
@@ -19,20 +19,19 @@ from shapewright.shapes import Floats
 
 # Where nothing else is said, chosen by eye on first versions of vessels and buildings.
 _POINTS = 150  # of a piece's surface
-_LEADING, _SAMPLES = 12, 6  # rules that are drawn with other parameters than their defaults, and with how many
+_LEADING = 12  # rules that are drawn with other parameters than their defaults
 _STEP = 0.15  # of a Range, by which a fit changes one parameter at a time
 _SHIFT = 0.03  # of the whole's extent, by which it moves one side of the box
 _SLACK = 0.03  # how much less a rule may bring before it is fitted than a primitive
 _LEAST = 0.01  # gain of a piece worth a hypothesis
 _FLOOR, _SIDE, _BODY = 0.1, 0.2, 0.5  # of the whole's extent: where a part stands low, aside; how large a body is
-_ASPECT = 2.5  # ratio of sides from one drawn surface of a rule to the next; between them it is stretched
 _PRIMITIVES: tuple[Kind, ...] = ("box", "cylinder", "rod x", "rod z", "frustum", "foot", "sphere")
 
 Gain: TypeAlias = tuple[float, Piece]
 """How much better all match with a piece, of 1, and the piece."""
 
 
-def retrieved(lack: Lack, rules: Sequence[Rule]) -> dict[str, Gain]:
+def retrieved(lack: Lack, rules: Sequence[Rule], gallery: Gallery) -> dict[str, Gain]:
     """What rules bring in the box where they bring most, by their names; those that bring about as much as a primitive.
 
     All are drawn with their defaults; those that lead then also with other parameters.
@@ -43,85 +42,76 @@ def retrieved(lack: Lack, rules: Sequence[Rule]) -> dict[str, Gain]:
     for rule in rules:
         ways = [(box, turn) for box in boxes for turn in _turns(box, lack.bounds, rule)]
         pieces = [replace(box, kind="rule", rule=rule, turn=turn) for box, turn in ways]
-        drawn = [one for piece in pieces for one in _sampled(piece, lack, range(1))]
+        drawn = [one for piece in pieces for one in _sampled(piece, lack, gallery, range(1))]
         if drawn:
             best[rule.name] = max(drawn, key=_value)
     leading = sorted(best.items(), key=lambda item: -item[1][0])[:_LEADING]
-    found = {name: max([one, *_sampled(one[1], lack, range(1, _SAMPLES))], key=_value) for name, one in leading}
+    found = {name: max([one, *_sampled(one[1], lack, gallery, range(1, SAMPLES))], key=_value) for name, one in leading}
     return {name: one for name, one in found.items() if one[0] > max(_LEAST, plain - _SLACK)}
 
 
 def fitted(start: Gain, lack: Lack) -> Gain:
     """The piece with numbers of its rule and sides of its box changed one at a time, where that brings more."""
     best = start[1]
-    most = _gain(best, lack)
+    form = _form(best)
+    if form is None:
+        return start
+    most = lack.gain(_placed(form, best))
     for changed in _changes(best, _SHIFT * lack.unit):
         for way in (1.0, -1.0):
             piece = changed(best, way)
-            if piece and (gain := _gain(piece, lack)) > most:
-                best, most = piece, gain
+            # What only stands elsewhere is stretched, which is ten times quicker than making it anew.
+            other = None if piece is None else form if piece.arguments == best.arguments else _form(piece)
+            if piece and other and (gain := lack.gain(_placed(other, piece))) > most:
+                best, most, form = piece, gain, other
                 break
     return most, best
 
 
-def _sampled(piece: Piece, lack: Lack, numbers: range) -> Iterator[Gain]:
+def _sampled(piece: Piece, lack: Lack, gallery: Gallery, numbers: range) -> Iterator[Gain]:
     """The piece with some of its rule's sampled parameters, and what it brings."""
     assert piece.rule
-    width, height, depth = piece.size[::-1] if piece.turn % 180.0 else piece.size
-    aspect = _coarse(height / width), _coarse(depth / width)
+    width, height, depth = _upright(piece)
     for number in numbers:
-        if made := _instance(piece.rule, aspect, number):
-            arguments, samples = made
-            yield lack.gain(_placed(samples, piece, aspect)), replace(piece, arguments=arguments)
+        if made := gallery.form(piece.rule, (_coarse(height / width), _coarse(depth / width)), number):
+            arguments, form = made
+            yield lack.gain(_placed(form, piece)), replace(piece, arguments=arguments)
 
 
-@lru_cache(maxsize=8192)
-def _instance(rule: Rule, aspect: tuple[int, int], number: int) -> tuple[dict[str, Any], Samples] | None:
-    """Sampled parameters of a rule, and its surface; the first are the defaults.
+def _form(piece: Piece) -> Form | None:
+    """The surface of the piece's rule, as large as the piece; None where it cannot be made."""
+    assert piece.rule
+    return form_of(piece.rule, _upright(piece), piece.arguments)
 
-    aspect: its height and its depth, as powers of _ASPECT in units of its width.
-    """
-    drawn = [rule.space.defaults, *(rule.space.sample(_SAMPLES - 1, 0) if len(rule.space) else ())]
-    if number >= len(drawn):
-        return None
-    try:
-        return dict(drawn[number]), sample(rule(_size(aspect), **drawn[number]).mesh(), _POINTS)
-    except ValueError:
-        return None
+
+def _upright(piece: Piece) -> Floats:
+    """The size of the rule that fills the piece, before it is turned."""
+    return np.asarray(piece.size[::-1] if piece.turn % 180.0 else piece.size)
 
 
 def _coarse(ratio: float) -> int:
     """As a power of _ASPECT, -1 to 1."""
-    return min(max(round(math.log(ratio, _ASPECT)), -1), 1)
+    return min(max(round(math.log(ratio, ASPECT)), -1), 1)
 
 
-def _size(aspect: tuple[int, int]) -> Floats:
-    return np.array([1.0, _ASPECT ** aspect[0], _ASPECT ** aspect[1]])
-
-
-def _placed(samples: Samples, piece: Piece, aspect: tuple[int, int]) -> Samples:
-    """The surface of a rule of this aspect, stretched to fill the box of a piece, with its mirror images."""
-    turning = _turning(piece.turn).T
-    factors = piece.size / np.abs(_size(aspect) @ turning)
+def _placed(form: Form, piece: Piece) -> Samples:
+    """The surface of a rule, turned and stretched to fill the box of a piece, with its mirror images."""
+    samples, turning = form.samples, _turning(piece.turn).T
+    factors = piece.size / np.abs(form.size @ turning)
     normals = samples.normals @ turning / factors
-    lengths = np.linalg.norm(normals, axis=1)
-    placed = Samples(
+    lengths = np.sqrt(np.square(normals).sum(axis=1))
+    points, area = (
         samples.points @ turning * factors + piece.centre,
-        samples.faces,
-        normals / lengths[:, None],
-        samples.area * float(np.prod(factors) * lengths.mean()),
+        samples.area * float(factors.prod() * lengths.mean()),
     )
+    normals = normals / lengths[:, None]
     for axis, mirrored, middle in ((0, piece.mirrored[0], piece.middle[0]), (2, piece.mirrored[1], piece.middle[1])):
         if mirrored:
-            flip = np.where(np.arange(3) == axis, -1.0, 1.0)
-            image = placed.points * flip + np.where(np.arange(3) == axis, 2.0 * middle, 0.0)
-            placed = Samples(
-                np.concatenate([placed.points, image]),
-                np.concatenate([placed.faces, placed.faces]),
-                np.concatenate([placed.normals, placed.normals * flip]),
-                2.0 * placed.area,
-            )
-    return placed
+            flip, shift = np.ones(3), np.zeros(3)
+            flip[axis], shift[axis] = -1.0, 2.0 * middle
+            points = np.concatenate([points, points * flip + shift])
+            normals, area = np.concatenate([normals, normals * flip]), 2.0 * area
+    return Samples(points, np.zeros(len(points), dtype=np.int64), normals, area)
 
 
 def _changes(piece: Piece, shift: float) -> Iterator[Any]:
