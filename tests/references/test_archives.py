@@ -27,7 +27,7 @@ FILES = {
     "chairs/a.obj": BOX,
     "chairs/b.off": boxes.off().encode(),
     "chairs/a.mtl": b"",
-    "c.fbx": b"FBX",
+    "c.blend": b"BLENDER",
     "wood.png": b"",
 }
 
@@ -54,7 +54,7 @@ def test_an_archive_is_read_as_a_folder(tmp_path, name):
     assert references.names == ("a", "b") and all(len(one.shape.faces) == 12 for one in references)
     assert references["a"].path == archive / "chairs" / "a.obj"
     assert references.skipped == {
-        archive / "c.fbx": "FBX, which is not read: open it in Blender and export it as GLB or OBJ"
+        archive / "c.blend": "a Blender file, which is not read: open it in Blender and export it as GLB or OBJ"
     }
     assert is_archive(archive) and stem(archive) == "refs"
 

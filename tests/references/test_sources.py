@@ -4,6 +4,7 @@ from pathlib import Path
 import pytest
 
 from shapewright.references import CollectionError, Orientation
+from shapewright.references.readers.formats import MESHES
 from shapewright.references.sources import find, natural_key
 
 
@@ -68,11 +69,11 @@ class TestFolder:
 
     def test_every_file_of_shapes_that_is_not_read_has_its_refusal(self, tree):
         folder = tree(
-            "a.obj", "b.fbx", "c.STEP", "sub/d.usdz", "e.obj.dvc", "wood.tga", "a.mtl", "list.json", "notes.txt"
+            "a.obj", "b.blend", "c.SKP", "sub/d.max", "e.obj.dvc", "wood.tga", "a.mtl", "list.json", "notes.txt"
         )
         refused = {one.path.name: one.refusal for one in find([folder]) if one.refusal}
-        assert sorted(refused) == ["b.fbx", "c.STEP", "d.usdz", "e.obj.dvc"]
-        assert refused["b.fbx"] == "FBX, which is not read: open it in Blender and export it as GLB or OBJ"
+        assert sorted(refused) == ["b.blend", "c.SKP", "d.max", "e.obj.dvc"]
+        assert refused["b.blend"] == "a Blender file, which is not read: open it in Blender and export it as GLB or OBJ"
         assert names(folder)[0] == "a"
 
     def test_a_link_that_leads_nowhere_is_listed_for_its_reader(self, tree):
@@ -93,17 +94,17 @@ class TestFolder:
         ]
 
     def test_nothing_there(self, tree):
-        folder = tree("a.fbx", "b.FBX", "x/wood.tga", "x/readme")
+        folder = tree("a.blend", "b.BLEND", "x/wood.tga", "x/readme")
         with pytest.raises(CollectionError) as error:
             find([folder])
         first, *more = str(error.value).splitlines()
         assert first == (
-            f"{folder} holds no shapes: looked for .3mf .dae .glb .gltf .obj .off .ply .png .stl .svg .zae, other "
-            "pictures, and points such as .las .pcd .xyz, found 2 .fbx, 1 without extension, 1 .tga"
+            f"{folder} holds no shapes: looked for {' '.join(sorted((*MESHES, '.png', '.svg')))}, other "
+            "pictures, and points such as .las .pcd .xyz, found 2 .blend, 1 without extension, 1 .tga"
         )
         assert more == [
-            f"{name}: FBX, which is not read: open it in Blender and export it as GLB or OBJ"
-            for name in ("a.fbx", "b.FBX")
+            f"{name}: a Blender file, which is not read: open it in Blender and export it as GLB or OBJ"
+            for name in ("a.blend", "b.BLEND")
         ]
 
     def test_nothing_there_at_all(self, tmp_path):
@@ -240,9 +241,10 @@ class TestPath:
 
     def test_another_kind_of_file(self, tree):
         with pytest.raises(
-            CollectionError, match=r"a\.fbx is not a kind of file that is read; \.3mf .* and \.csv are\na\.fbx: FBX"
+            CollectionError,
+            match=r"a\.blend is not a kind of file that is read; \.3mf .* and \.csv are\na\.blend: a Blender file",
         ):
-            find([tree("a.fbx") / "a.fbx"])
+            find([tree("a.blend") / "a.blend"])
 
     def test_an_empty_list(self):
         with pytest.raises(CollectionError, match="the list of references is empty"):

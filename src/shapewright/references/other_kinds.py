@@ -13,7 +13,6 @@ _DRAWN = "export it from its own program as SVG or PNG"
 _UNPACK = "unpack it"
 
 _KINDS = {
-    ("FBX", _BLENDER): "fbx",
     ("a Blender file", _BLENDER): "blend",
     ("USD", _BLENDER): "usd usda usdc usdz",
     ("Alembic", _BLENDER): "abc",

@@ -311,7 +311,7 @@ class TestReasons:
 
     def test_another_kind_of_file(self, tmp_path):
         assert ".obj" in reason(put(tmp_path, "a.txt", b"x"))
-        assert "FBX, which is not read: open it in Blender" in reason(put(tmp_path, "a.fbx", b"x"))
+        assert "a Blender file, which is not read: open it in Blender" in reason(put(tmp_path, "a.blend", b"x"))
 
     def test_a_pointer_and_a_link_of_git_annex(self, tmp_path):
         assert "git annex get" in reason(put(tmp_path, "a.obj", b"/annex/objects/MD5-s9--00\n"))

@@ -18,6 +18,7 @@ from shapewright.references.readers.clouds.las import read_las
 from shapewright.references.readers.clouds.pcd import read_pcd
 from shapewright.references.readers.collada.scene import read_collada
 from shapewright.references.readers.contents import Contents, held
+from shapewright.references.readers.fbx.scene import read_fbx
 from shapewright.references.readers.gltf.scene import read_gltf
 from shapewright.references.readers.obj import read_obj
 from shapewright.references.readers.off import read_off
@@ -43,6 +44,7 @@ _SCENES: dict[str, Callable[[Path, bytes], Scene]] = {
     ".3mf": read_3mf,
     ".dae": read_collada,
     ".zae": read_collada,
+    ".fbx": read_fbx,
 }
 _CLOUDS: dict[str, Callable[[bytes], Cloud]] = {
     ".xyz": read_xyz,
@@ -58,9 +60,9 @@ _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {
     ".svgz": read_svg,
     **dict.fromkeys(PICTURES, read_picture),
 }
-MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF", "DAE", "ZAE")
-"""Formats of meshes that are read, as people write them. The extension of a file is the name in small letters."""
-MESHES = tuple(f".{name.lower()}" for name in MESH_FORMATS)
+MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF", "DAE", "FBX")
+"""Formats of meshes that are read, as people write them."""
+MESHES = (*_POLYGONS, *_SCENES)
 CLOUDS = (*_CLOUDS, *_CLOUD_FILES)
 """Extensions of files that hold points alone; PLY, OBJ and OFF without faces do as well."""
 EXTENSIONS = tuple(sorted((*MESHES, *CLOUDS, *_DRAWINGS)))

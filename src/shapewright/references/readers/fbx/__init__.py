@@ -1,0 +1,1 @@
+"""FBX, binary and text: the triangles that its scene shows."""
