@@ -7,6 +7,7 @@ from shapewright.parameters import Binary, Choice, Integer, ParameterSpace, Rang
 from shapewright.procedures import Infeasible, Procedure, ProcedureError, load_procedure, procedure
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Points, Transform
+from shapewright.shapes.conversion import register
 
 if TYPE_CHECKING:
     from shapewright.comparison import light_field, outline
@@ -86,6 +87,7 @@ __all__ = [
     "load_procedure",
     "outline",
     "procedure",
+    "register",
     "rule",
     "sample",
     "train",

@@ -189,3 +189,19 @@ def test_author_line_is_the_deepest_line_in_the_authors_folder(tmp_path):
         part()
     place = place_of(error.value, part.path)
     assert place and place.says(describe(error.value)).startswith(f"{tmp_path}/model.py:6: ValueError:")
+
+
+def test_what_a_generator_raises_is_the_authors_own():
+    @sw.procedure
+    def parts(size: Annotated[float, Range(0.5, 2.0)] = 1.0):
+        yield [[0, 0, 0], [size, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+        if size > 1.0:
+            raise ValueError("too long")
+        if size < 1.0:
+            raise Infeasible("too short")
+
+    assert len(parts().faces) == 1
+    with pytest.raises(ValueError, match="too long"):
+        parts(size=2.0)
+    with pytest.raises(Infeasible):
+        parts(size=0.5)

@@ -72,6 +72,8 @@ class Procedure:
         Raises Infeasible, ProcedureError when the function returns no shape, and whatever the function raises.
         """
         result = self.function(*args, **kwargs)
+        if inspect.isgenerator(result):
+            result = list(result)  # here, so that what the author's code raises is the author's
         try:
             return as_shape(result)
         except (TypeError, ValueError) as error:

@@ -15,8 +15,9 @@ from typing import Any, Literal, TypeAlias, get_args
 from xml.sax.saxutils import escape
 
 import numpy as np
+from numpy.typing import NDArray
 
-from shapewright.shapes.arrays import Ints
+from shapewright.shapes.arrays import Bytes, Ints
 from shapewright.shapes.drawing import Drawing
 from shapewright.shapes.mesh import Mesh, concatenate
 from shapewright.shapes.shape import Shape
@@ -45,18 +46,22 @@ def encode(shape: Shape, format: Format = "glb", extras: Extras | None = None) -
 
 
 def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
-    """Binary glTF 2.0: one node per label, with vertices of its own, under a root node that holds the extras,
-    as the scene does."""
+    """Binary glTF 2.0: one node for each label, and of a label with several colours for each of these, with vertices
+    of its own, under a root node that holds the extras, as the scene does."""
     buffer = bytearray()
     accessors: list[dict[str, Any]] = []
     views: list[dict[str, Any]] = []
     meshes: list[dict[str, Any]] = []
     nodes: list[dict[str, Any]] = [{"name": _title(extras)}]
-    for name, faces, label in _parts(mesh):
+    materials: list[dict[str, Any]] = []
+    for name, faces, label, colour in _coloured_parts(mesh):
         used, corners = np.unique(faces, return_inverse=True)
         positions = mesh.vertices[used].astype(np.float32)
         arrays = (positions, corners.ravel().astype(np.uint16 if len(used) <= 0xFFFF else np.uint32))
-        primitive = {"attributes": {"POSITION": len(accessors)}, "indices": len(accessors) + 1}
+        primitive: dict[str, Any] = {"attributes": {"POSITION": len(accessors)}, "indices": len(accessors) + 1}
+        if colour is not None:
+            primitive["material"] = len(materials)
+            materials.append(_material(colour))
         meshes.append({"name": name, "primitives": [primitive]})
         if label and name in _NO_LABEL:
             meshes[-1]["extras"] = {"label": True}
@@ -76,6 +81,7 @@ def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
         "nodes": nodes,
         "meshes": meshes,
         "accessors": accessors,
+        **({"materials": materials} if materials else {}),
         "bufferViews": views,
         "buffers": [{"byteLength": len(buffer)}],
     }
@@ -86,14 +92,18 @@ def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
 
 
 def read_glb(data: bytes) -> Mesh:
-    """The mesh of a file that ``glb`` wrote, with its labels."""
+    """The mesh of a file that ``glb`` wrote, with its labels and colours."""
     import trimesh
 
-    written = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])["meshes"]
+    document = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    written = document["meshes"]
     scene = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False)
     parts = []
     for entry, part in zip(written, scene.geometry.values(), strict=True):
         mesh = Mesh(part.vertices, part.faces)
+        if (material := entry["primitives"][0].get("material")) is not None:
+            colour = document["materials"][material]["extras"]["srgb"]
+            mesh = replace(mesh, face_colours=np.tile(np.array(colour, dtype=np.uint8), (len(mesh.faces), 1)))
         labelled = entry["name"] not in _NO_LABEL or entry.get("extras", {}).get("label")
         parts.append(mesh.label(entry["name"]) if labelled else mesh)
     whole = concatenate(parts)
@@ -132,9 +142,9 @@ def obj(mesh: Mesh, extras: Extras | None = None) -> bytes:
     lines = [f"# extras {_json(extras)}"] if extras else []
     lines.append(f"o {_title(extras)}")
     lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
-    for name, faces, _ in _parts(mesh):
+    for name, rows, _ in _parts(mesh):
         lines.append(f"g {'_'.join(name.split())}")
-        lines += [f"f {a} {b} {c}" for a, b, c in (faces + 1).tolist()]
+        lines += [f"f {a} {b} {c}" for a, b, c in (mesh.faces[rows] + 1).tolist()]
     return ("\n".join(lines) + "\n").encode()
 
 
@@ -149,14 +159,34 @@ def svg(drawing: Drawing, extras: Extras | None = None) -> bytes:
     return f'{head}<g transform="scale(1 -1)">{shape}</g></svg>'.encode()
 
 
-def _parts(mesh: Mesh) -> Iterator[tuple[str, Ints, bool]]:
-    """Name and faces of each label that has any, and whether it is a label; of a mesh without labels, all its faces."""
+def _parts(mesh: Mesh) -> Iterator[tuple[str, NDArray[np.bool_], bool]]:
+    """Name and faces (F,) of each label that has any, and whether it is one; without labels all the mesh's faces."""
     if mesh.face_labels is None:
-        yield _NAME, mesh.faces, False
+        yield _NAME, np.ones(len(mesh.faces), dtype=bool), False
         return
     for i, name in (*enumerate(mesh.label_names), (-1, _REST)):
         if (chosen := mesh.face_labels == i).any():
-            yield name, mesh.faces[chosen], i >= 0
+            yield name, chosen, i >= 0
+
+
+def _coloured_parts(mesh: Mesh) -> Iterator[tuple[str, Ints, bool, Bytes | None]]:
+    """What _parts yields, with the faces of each colour apart; (4,) uint8, None without one."""
+    for name, rows, label in _parts(mesh):
+        if mesh.face_colours is None:
+            yield name, mesh.faces[rows], label, None
+            continue
+        colours, index = np.unique(mesh.face_colours[rows], axis=0, return_inverse=True)
+        for i, colour in enumerate(colours):
+            yield name, mesh.faces[rows][index.ravel() == i], label, colour if colour.any() else None
+
+
+def _material(colour: Bytes) -> dict[str, Any]:
+    """A material of this colour, which glTF holds linear (IEC 61966-2-1); the exact one is beside it."""
+    srgb = colour / 255.0
+    linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+    factor = [round(float(x), 6) for x in (*linear[:3], srgb[3])]
+    shown = {"pbrMetallicRoughness": {"baseColorFactor": factor, "metallicFactor": 0.0}, "doubleSided": True}
+    return {**shown, **({"alphaMode": "BLEND"} if colour[3] < 255 else {}), "extras": {"srgb": colour.tolist()}}
 
 
 def _accessor(view: int, array: np.ndarray[Any, Any]) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from shapewright.shapes.arrays import Floats, Ints, Transform
+from shapewright.shapes.arrays import Bytes, Floats, Ints, Transform
 
 if TYPE_CHECKING:
     from shapewright.shapes.soundness import Soundness
@@ -26,6 +26,7 @@ class Mesh:
         label_names: the labels.
         face_rules: (F,) int64, index into rule_names, -1 for a face that no rule of a grammar made; None when none is.
         rule_names: the rules.
+        face_colours: (F, 4) uint8, sRGB and opacity; all 0 for a face without colour; None when nothing is coloured.
 
     Raises ValueError for arrays of another form, vertices that are not finite, or faces that point at no vertex.
     """
@@ -36,6 +37,7 @@ class Mesh:
     label_names: tuple[str, ...] = ()
     face_rules: Ints | None = None
     rule_names: tuple[str, ...] = ()
+    face_colours: Bytes | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "vertices", np.ascontiguousarray(self.vertices, dtype=np.float64))
@@ -54,6 +56,8 @@ class Mesh:
                 object.__setattr__(self, field, indices)
                 if indices.shape != (len(self.faces),):
                     raise ValueError(f"{len(indices)} {field.replace('_', ' ')} for {len(self.faces)} faces")
+        if self.face_colours is not None and self.face_colours.shape != (len(self.faces), 4):
+            raise ValueError(f"face colours have the form {self.face_colours.shape}, not ({len(self.faces)}, 4)")
 
     @cached_property
     def bounds(self) -> Floats:
@@ -90,9 +94,10 @@ class Mesh:
         return replace(self, face_labels=np.zeros(len(self.faces), dtype=np.int64), label_names=(name,))
 
     def remade(self, vertices: Floats, faces: Ints, origins: Ints) -> Mesh:
-        """Other triangles with the labels and rules of those faces of this mesh that they come from, origins (F,)."""
+        """Other triangles with what is known of those faces of this mesh that they come from, origins (F,)."""
         labels, rules = (each if each is None else each[origins] for each in (self.face_labels, self.face_rules))
-        return Mesh(vertices, faces, labels, self.label_names, rules, self.rule_names)
+        colours = None if self.face_colours is None else self.face_colours[origins]
+        return Mesh(vertices, faces, labels, self.label_names, rules, self.rule_names, colours)
 
     def transformed(self, matrix: ArrayLike) -> Mesh:
         """The mesh under a 3x3 or 4x4 matrix; faces keep their order of corners."""
@@ -121,7 +126,7 @@ class Mesh:
 
 
 def concatenate(meshes: list[Mesh]) -> Mesh:
-    """One mesh of all triangles of several; labels and rules are kept. Raises ValueError for an empty list."""
+    """One mesh of all triangles of several; labels, rules and colours are kept. Raises ValueError for an empty list."""
     if not meshes:
         raise ValueError("nothing to concatenate")
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
@@ -131,6 +136,16 @@ def concatenate(meshes: list[Mesh]) -> Mesh:
         np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]),
         *_joined([mesh.face_labels for mesh in meshes], [mesh.label_names for mesh in meshes], faces),
         *_joined([mesh.face_rules for mesh in meshes], [mesh.rule_names for mesh in meshes], faces),
+        _colours(meshes),
+    )
+
+
+def _colours(meshes: list[Mesh]) -> Bytes | None:
+    if all(mesh.face_colours is None for mesh in meshes):
+        return None
+    none = (np.zeros((len(mesh.faces), 4), dtype=np.uint8) for mesh in meshes)
+    return np.concatenate(
+        [bare if m.face_colours is None else m.face_colours for m, bare in zip(meshes, none, strict=True)]
     )
 
 

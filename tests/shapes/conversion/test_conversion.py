@@ -1,9 +1,12 @@
+from collections import namedtuple
+from pathlib import Path
 from types import SimpleNamespace
 
 import manifold3d
 import numpy as np
 import pytest
 import shapely
+import torch
 import trimesh
 
 from shapewright.shapes import Drawing, Mesh, Points
@@ -12,37 +15,11 @@ from shapewright.shapes.conversion import as_reference, as_shape
 VERTICES, FACES = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
 
 
-class CadVector:
-    """As build123d's: X, Y, Z and iterable."""
+class Brick:
+    """As authors write classes of their own."""
 
-    def __init__(self, x, y, z):
-        self.X, self.Y, self.Z = x, y, z
-
-
-class CadSolid:
-    """As build123d's Shape: geom_type and area like shapely's, but also tessellate."""
-
-    geom_type, area = "SOLID", 1.0
-
-    def vertices(self):
-        return []
-
-    def faces(self):
-        return []
-
-    def bounding_box(self):
-        return SimpleNamespace(diagonal=100.0)
-
-    def tessellate(self, tolerance):
-        self.tolerance = tolerance
-        return [CadVector(*v) for v in VERTICES], [tuple(f) for f in FACES]
-
-
-class OlderCadSolid(CadSolid):
-    """As CadQuery's Shape, whose vectors have toTuple."""
-
-    def tessellate(self, tolerance):
-        return [SimpleNamespace(toTuple=lambda v=v: tuple(map(float, v))) for v in VERTICES], FACES
+    def __shapewright__(self):
+        return {"brick": (VERTICES, FACES)}
 
 
 def scene():
@@ -63,11 +40,25 @@ def scene():
         (trimesh.Trimesh(VERTICES, FACES), 4),
         (scene(), 24),
         (manifold3d.Manifold.cube((1, 1, 1)), 12),
-        (CadSolid(), 4),
-        (OlderCadSolid(), 4),
-        (SimpleNamespace(vals=lambda: [OlderCadSolid(), OlderCadSolid()]), 8),
-        (SimpleNamespace(part=CadSolid()), 4),
-        (SimpleNamespace(mesh=lambda: Mesh(np.array(VERTICES), np.array(FACES))), 4),
+        (Brick(), 4),
+        (manifold3d.Manifold.cube((1, 1, 1)).to_mesh(), 12),
+        (trimesh.primitives.Box(), 12),
+        (trimesh.voxel.VoxelGrid(np.ones((1, 1, 2), dtype=bool)), 24),
+        (SimpleNamespace(vertices=VERTICES, faces=FACES), 4),
+        ({"vertices": VERTICES, "faces": FACES}, 4),
+        (namedtuple("Made", "verts faces")(VERTICES, FACES), 4),
+        ((VERTICES, [], FACES), 4),
+        ((VERTICES, [[0, 1], [1, 2]], FACES), 4),
+        ((np.array(VERTICES, dtype=np.float32), np.array(FACES, dtype=np.uint16)), 4),
+        ((np.array(VERTICES), np.array(FACES, dtype=float)), 4),
+        ((torch.tensor(VERTICES, dtype=torch.float32, requires_grad=True), torch.tensor(FACES)), 4),
+        (np.array(VERTICES, dtype=np.float32)[np.array(FACES)], 4),
+        ((VERTICES, [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]), 4),
+        ({"a": (VERTICES, FACES), "b": [(VERTICES, FACES)]}, 8),
+        ([[(VERTICES, FACES)], ((VERTICES, FACES), (VERTICES, FACES))], 12),
+        ((part for part in [(VERTICES, FACES), (VERTICES, FACES)]), 8),
+        (iter([(VERTICES, FACES)]), 4),
+        ([("a", (VERTICES, FACES)), ("b", (VERTICES, FACES))], 8),
         ([(VERTICES, FACES), trimesh.Trimesh(VERTICES, FACES)], 8),
     ],
 )
@@ -77,10 +68,28 @@ def test_everything_that_users_have_becomes_a_mesh(value, faces):
     assert mesh.extent.max() >= 1.0
 
 
-def test_cad_is_tessellated_relative_to_its_size():
-    solid = CadSolid()
-    as_shape(solid)
-    assert solid.tolerance == pytest.approx(0.05)
+def test_names_become_labels_and_stand_before_those_inside():
+    legs = [(VERTICES, FACES), ("left", (VERTICES, FACES))]
+    labels = as_shape({"top": (VERTICES, FACES), "legs": legs, "drawer": {"front": Brick()}}).label_names
+    assert labels == ("top", "legs/left", "legs", "drawer/front/brick")
+
+
+def test_a_scene_keeps_its_names_and_colours_and_mirrored_parts_stay_outside_out():
+    made, box = trimesh.Scene(), trimesh.creation.box()
+    box.visual.face_colors = [200, 150, 80, 255]
+    made.add_geometry(box, node_name="top", transform=np.diag([-2.0, 1.0, 1.0, 1.0]))
+    made.add_geometry(trimesh.creation.box())
+    mesh = as_shape(made)
+    assert mesh.labels == ("top",) * 12 + (None,) * 12
+    assert {tuple(row) for row in mesh.face_colours.tolist()} == {(200, 150, 80, 255), (0, 0, 0, 0)}
+    assert trimesh.Trimesh(mesh.vertices, mesh.faces).volume == pytest.approx(3.0)
+
+
+def test_a_textured_mesh_has_the_colour_of_its_material():
+    box = trimesh.creation.box()
+    material = trimesh.visual.material.SimpleMaterial(diffuse=[10, 20, 30, 255])
+    box.visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=material)
+    assert as_shape(box).face_colours[0].tolist() == [10, 20, 30, 255]
 
 
 def test_labels_of_listed_meshes_survive():
@@ -97,6 +106,10 @@ def test_labels_of_listed_meshes_survive():
         [shapely.box(0, 0, 1, 1), shapely.box(0.5, 0, 3, 1)],
         shapely.GeometryCollection([shapely.box(0, 0, 1, 1), shapely.Point(5, 5)]),
         manifold3d.CrossSection.square((1, 1)),
+        trimesh.load_path(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1], [0, 0]])),
+        {"left": shapely.box(0, 0, 1, 1), "right": shapely.box(2, 0, 3, 1)},
+        np.array([shapely.box(0, 0, 1, 1), shapely.box(2, 0, 3, 1)], dtype=object),
+        (each for each in [shapely.box(0, 0, 1, 1)]),
     ],
 )
 def test_plane_geometry_becomes_a_drawing(value):
@@ -125,6 +138,24 @@ def test_a_cross_section_keeps_its_holes():
         (manifold3d.Manifold(), ValueError, "no faces"),
         (shapely.LineString([(0, 0), (1, 1)]), ValueError, "width"),
         ([shapely.box(0, 0, 1, 1), (VERTICES, FACES)], TypeError, "mixes"),
+        (shapely.Polygon([(0, 0), (4, 1), (4, 0), (0, 1)]), ValueError, "crosses itself"),
+        (shapely.Polygon(), ValueError, "without points"),
+        ([(VERTICES, FACES), None], TypeError, r"at \[1\]: it returned nothing"),
+        ({"top": [(VERTICES, FACES), "x"]}, TypeError, r"at \['top'\]\[1\]: it returned str"),
+        ({trimesh.creation.box()}, TypeError, "return a list"),
+        ([VERTICES, FACES], TypeError, r"tuple \(vertices, faces\)"),
+        ((VERTICES, FACES, VERTICES), TypeError, r"3 tables; for one mesh return the tuple \(vertices, faces\)"),
+        (np.array(VERTICES), TypeError, r"form \(4, 3\); return \(vertices, faces\)"),
+        (Path("box.stl"), TypeError, "trimesh.load"),
+        (b"glTF", TypeError, "trimesh.load"),
+        (trimesh.Scene(), ValueError, "holds no meshes"),
+        (trimesh.path.creation.box_outline((1, 1, 1)), TypeError, "Path3D"),
+        (trimesh.load_path(np.array([[0.0, 0], [2, 0]])), TypeError, "outlines is closed"),
+        ((VERTICES, [[0, 1]]), ValueError, r"\(F, 3\)"),
+        ((VERTICES, [[0, 1, 2], [0, 1]]), ValueError, "face 1 has 2 corners"),
+        ((VERTICES, [[0.5, 1, 2]]), ValueError, "fractions"),
+        ((np.array(VERTICES) + 1j, FACES), ValueError, "complex"),
+        (object(), TypeError, "__shapewright__"),
     ],
 )
 def test_what_is_no_shape_is_refused_with_the_reason(value, error, message):
