@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fbx_files import binary, cube, geometry, model, node, scene, written
+from fbx_files import binary, cube, geometry, model, node, properties, scene, written
 from gltf_files import CUBE
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.formats import contents
@@ -256,3 +256,34 @@ class TestDeformers:
     )
     def test_blend_shapes_count_by_the_weights_of_the_file(self, tmp_path, percent, full, height):
         assert bounds(tmp_path, self.blend(percent, full))[1][2] == pytest.approx(height)
+
+    def test_of_a_single_shape_blender_writes_how_much_each_vertex_moves(self, tmp_path):
+        nodes = self.blend(100.0)
+        shape = next(each for each in nodes[0][2] if each[1][2] == "Shape")
+        channel = next(each for each in nodes[0][2] if each[1][2] == "BlendShapeChannel")
+        shape[2][:] = [node("Indexes", np.array([6, 7], "i4")), node("Vertices", np.array([0, 4.0, 0, 0, 0, 4.0]))]
+        channel[2][1] = node("FullWeights", np.array([25.0, 50.0]))
+        assert bounds(tmp_path, nodes)[1] == [1, 2, 3]
+
+    def test_before_version_7_2_a_geometry_holds_its_shapes(self, tmp_path):
+        shape = node(
+            "Shape", "tall", below=[node("Indexes", np.array([7], "i4")), node("Vertices", np.array([0, 0, 2.0]))]
+        )
+        nodes = scene([geometry(1, more=[properties(tall=50.0), shape]), model(2)], (1, 2), (2, 0))
+        assert bounds(tmp_path, nodes)[1] == [1, 1, 2]
+
+    def test_a_skin_by_dual_quaternions_is_noted(self, tmp_path):
+        nodes = self.skin(model(3, "LimbNode"))
+        skin = next(each for each in nodes[0][2] if each[1][2] == "Skin")
+        skin[2].append(node("SkinningType", "DualQuaternion"))
+        assert contents(put(tmp_path, binary(nodes))).notes == ("1 x dual quaternion of skins left out",)
+
+    def test_two_models_of_one_number_are_refused(self, tmp_path):
+        nodes = scene([geometry(1), model(2), model(2, Lcl_Translation=[5, 0, 0])], (1, 2))
+        assert "nothing tells them apart" in reason(tmp_path, binary(nodes))
+
+    def test_instances_of_a_skin_stand_to_one_another_as_their_models(self, tmp_path):
+        nodes = self.skin(model(3, "LimbNode"))
+        nodes[0][2].append(model(4, Lcl_Translation=[53, 0, 0]))
+        nodes[1][2].append(node("C", "OO", 1, 4))
+        assert bounds(tmp_path, nodes) == [[0, 0, 0], [4, 1, 1]]

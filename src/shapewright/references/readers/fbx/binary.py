@@ -56,6 +56,7 @@ def _record(
     position = start + head.size
     if not (end or value_count or value_size or name_size):
         return None, position
+    end = end or position + name_size + value_size  # as some programs write records without others in them
     if not position + name_size + value_size <= end <= limit:
         raise UnreadableError(f"broken: cut short, a record at byte {start} ends at byte {end} of {limit}")
     name = bytes(data[position : position + name_size]).decode("latin-1")
@@ -86,7 +87,7 @@ def _values(data: memoryview, count: int, form: _Form, start: int) -> list[Value
             elif kind in "SR":
                 (size,) = struct.unpack_from(f"{form.order}I", data, position)
                 position += 4
-                values.append(bytes(data[position : position + size]).decode("utf-8", "replace"))
+                values.append(bytes(data[position : position + size]).decode("utf-8", "surrogateescape"))
                 position += size
             elif kind in _ARRAYS:
                 length, encoding, size = struct.unpack_from(f"{form.order}3I", data, position)

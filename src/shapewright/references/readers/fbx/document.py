@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -19,6 +19,7 @@ Key: TypeAlias = int | str
 """What names an object: its number, before version 7 its name."""
 
 _OLDEST, _NUMBERED = 6000, 7000
+_UNIQUE = ("Model", "Geometry")
 _PROPERTIES = {"Properties70": ("P", 4), "Properties60": ("Property", 3)}
 """The nodes that list properties; the name of one, and where its values begin."""
 _SHOWN = 60
@@ -65,12 +66,14 @@ class Document:
         objects: by their keys, in the order of the file.
         sources: the objects that are connected to each, in the order of the file.
         parents: those that each is connected to.
+        of_root: the objects that the root of the scene is connected to.
         settings: the global ones.
     """
 
     objects: Mapping[Key, Object]
     sources: Mapping[Key, Sequence[Object]]
     parents: Mapping[Key, Sequence[Key]]
+    of_root: Collection[Key]
     settings: Object
 
     def below(self, key: Key, kind: str, form: str | None = None) -> list[Object]:
@@ -91,18 +94,28 @@ def parse(data: bytes) -> Document:
     objects: dict[Key, Object] = {}
     for node in listed.below:
         found = _object(node, templates, version)
-        if found is not None:
-            objects[found.key] = found
+        if found is None:
+            continue
+        if found.kind in _UNIQUE and objects.get(found.key, found).kind in _UNIQUE and found.key in objects:
+            raise UnreadableError(
+                f"broken: two objects are called {str(found.key)[:_SHOWN]}, and nothing tells them apart"
+            )
+        objects[found.key] = found
     settings = top.child("GlobalSettings") or listed.child("GlobalSettings") or Node("GlobalSettings", (), ())
     sources, parents = defaultdict[Key, list[Object]](list), defaultdict[Key, list[Key]](list)
+    of_root = set[Key]()
     connections = top.child("Connections") or Node("Connections", (), ())
     for node in connections.below:
         if node.name in ("C", "Connect") and node.text(0) == "OO" and len(node.values) >= 3:
             source, target = _key(node.values[1]), _key(node.values[2])
-            if source in objects:
+            if source in (0, "Model::Scene"):
+                of_root.add(target)
+            elif source in objects:
                 sources[target].append(objects[source])
                 parents[source].append(target)
-    return Document(objects, sources, parents, Object("", "GlobalSettings", "", settings, _properties(settings)))
+    return Document(
+        objects, sources, parents, of_root, Object("", "GlobalSettings", "", settings, _properties(settings))
+    )
 
 
 def _key(value: Value) -> Key:

@@ -8,6 +8,7 @@ import numpy as np
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.fbx.document import Document, Object
+from shapewright.references.readers.fbx.nodes import Node
 from shapewright.references.readers.polygons import Polygons, check_indices, triangulate
 from shapewright.shapes import Floats, Ints
 
@@ -67,24 +68,31 @@ def _blended(document: Document, shape: Object, count: int) -> Floats:
     moved = np.zeros((count, 3))
     for blend in document.below(shape.key, "Deformer", "BlendShape"):
         for channel in document.below(blend.key, "Deformer", "BlendShapeChannel"):
-            targets = document.below(channel.key, "Geometry", "Shape")
-            weight = channel.number("DeformPercent", 0.0)
+            targets = [each.node for each in document.below(channel.key, "Geometry", "Shape")]
+            told = channel.node.floats("DeformPercent")
+            weight = channel.number("DeformPercent", float(told[0]) if len(told) else 0.0)
             if not targets or not weight:
                 continue
-            full = channel.node.floats("FullWeights")[: len(targets)]
-            full = np.concatenate([full, np.full(len(targets) - len(full), _FULL)])
+            full = channel.node.floats("FullWeights")
+            if len(targets) == 1 and len(full) > 1:  # Blender writes there how much each vertex moves
+                _move(moved, targets[0], weight / _FULL * full / _FULL)
+                continue
+            full = np.concatenate([full, np.full(max(0, len(targets) - len(full)), _FULL)])[: len(targets)]
             for target, share in zip(targets, shares(weight, full), strict=True):
                 if share:
                     _move(moved, target, share)
+    for target in shape.node.children("Shape"):  # as files before version 7.2 have them
+        if share := shape.number(target.text(0), 0.0) / _FULL:
+            _move(moved, target, share)
     return moved
 
 
-def _move(moved: Floats, target: Object, share: float) -> None:
-    indices, steps = target.node.integers("Indexes"), target.node.points("Vertices")
-    if len(indices) != len(steps):
+def _move(moved: Floats, target: Node, share: float | Floats) -> None:
+    indices, steps = target.integers("Indexes"), target.points("Vertices")
+    if len(indices) != len(steps) or np.size(share) not in (1, len(steps)):
         raise UnreadableError(f"broken: a blend shape of {len(indices)} vertices and {len(steps)} steps")
     check_indices(indices, len(moved))
-    np.add.at(moved, indices, share * steps)
+    np.add.at(moved, indices, np.reshape(share, (-1, 1)) * steps)
 
 
 def shares(weight: float, full: Floats) -> Floats:

@@ -11,7 +11,7 @@ import numpy as np
 
 from shapewright.references.readers.fbx.document import Document, Key, Object, parse
 from shapewright.references.readers.fbx.geometry import Geometry, is_mesh, read_geometry
-from shapewright.references.readers.fbx.skins import posed
+from shapewright.references.readers.fbx.skins import is_by_dual_quaternions, posed
 from shapewright.references.readers.fbx.transforms import geometric, places
 from shapewright.references.readers.scene_parts import Piece, Scene, join, placed, refuse_too_many
 from shapewright.shapes import Floats
@@ -33,6 +33,7 @@ def read_fbx(path: Path, data: bytes) -> Scene:
     del path  # it may refer to textures and caches beside it, which are not looked at
     document = parse(data)
     stand = places(document)
+    shown = list(_shown(document))
     hidden, lower = _hidden(document), _lower_levels(document)
     left_out: Counter[str] = Counter()
 
@@ -40,19 +41,31 @@ def read_fbx(path: Path, data: bytes) -> Scene:
     def geometry(key: Key) -> Geometry:
         return read_geometry(document, document.objects[key])
 
+    @cache
+    def first(key: Key) -> tuple[Floats, Floats]:
+        """A geometry as its first model shows it, and where that would put it without a skin."""
+        model = next(model for model, shape in shown if shape.key == key)
+        inner = geometric(model)
+        own = stand[model.key].matrix @ inner
+        return posed(document, geometry(key), stand, own, inner), own
+
     pieces, triangles = list[Piece](), 0
-    for model, shape in _shown(document):
+    for model, shape in shown:
         if model.key in hidden or model.key in lower:
             left_out["mesh that is hidden" if model.key in hidden else "lower level of detail"] += 1
         elif is_mesh(shape):
-            found, inner = geometry(shape.key), geometric(model)
-            triangles += len(found.faces)
+            faces = geometry(shape.key).faces
+            triangles += len(faces)
             refuse_too_many(triangles)
-            own = stand[model.key].matrix @ inner
-            pieces.append((posed(document, found, stand, own, inner), placed(found.vertices[:0], found.faces, own)[1]))
+            left_out["dual quaternion of skins"] += is_by_dual_quaternions(document, shape)
+            vertices, at_first = first(shape.key)
+            own = stand[model.key].matrix @ geometric(model)
+            if not np.array_equal(own, at_first):
+                vertices = placed(vertices, faces, own @ np.linalg.pinv(at_first))[0]
+            pieces.append((vertices, placed(vertices[:0], faces, own)[1]))
         elif shape.form in _LEFT_OUT:
             left_out[f"{shape.form} without polygons"] += 1
-    notes = tuple(f"{count} x {what} left out" for what, count in left_out.items())
+    notes = tuple(f"{count} x {what} left out" for what, count in left_out.items() if count)
     vertices, faces = join(pieces)
     axes = _axes(document.settings)
     if np.linalg.det(axes) < 0.0:  # left-handed: the front axis is turned over

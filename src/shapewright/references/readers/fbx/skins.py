@@ -9,7 +9,7 @@ import numpy as np
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.fbx.document import Document, Key, Object
 from shapewright.references.readers.fbx.geometry import Geometry
-from shapewright.references.readers.fbx.transforms import Place
+from shapewright.references.readers.fbx.transforms import ROOT, Place
 from shapewright.references.readers.polygons import check_indices
 from shapewright.shapes import Floats
 
@@ -25,6 +25,8 @@ def posed(document: Document, shape: Geometry, places: Mapping[Key, Place], own:
     for skin in document.below(shape.key.key, "Deformer", "Skin"):
         for cluster in document.below(skin.key, "Deformer", "Cluster"):
             bone = next((places[each.key] for each in document.below(cluster.key, "Model")), None)
+            if bone is None and cluster.key in document.of_root:
+                bone = ROOT
             indices, weights = cluster.node.integers("Indexes"), cluster.node.floats("Weights")
             if bone is None or not len(indices):
                 continue
@@ -38,6 +40,13 @@ def posed(document: Document, shape: Geometry, places: Mapping[Key, Place], own:
     held = total > 0.0
     result[held] = moved[held] / total[held, None]
     return result
+
+
+def is_by_dual_quaternions(document: Document, shape: Object) -> bool:
+    """Whether the file wants a skin to be moved in a way that keeps its volume, which ``posed`` does not."""
+    skins = document.below(shape.key, "Deformer", "Skin")
+    kinds = [kind for skin in skins if (kind := skin.node.child("SkinningType")) is not None]
+    return any(kind.text(0) in ("DualQuaternion", "Blend") for kind in kinds)
 
 
 def _matrix(cluster: Object, name: str) -> Floats:

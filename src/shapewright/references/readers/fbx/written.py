@@ -76,7 +76,7 @@ def _values(text: bytes, position: int) -> tuple[list[Value], int]:
             return values, position
         position = found.end()
         if found["text"] is not None:
-            values.append(found["text"].decode("utf-8", "replace").replace(_QUOTE, '"'))
+            values.append(found["text"].decode("utf-8", "surrogateescape").replace(_QUOTE, '"'))
         elif found["count"] is not None:
             values.append(int(found["count"]))
         elif found["word"] is not None:
