@@ -84,6 +84,15 @@ class TestPlaces:
     def test_a_skew_is_refused(self, tmp_path):
         assert "skew" in reason(tmp_path, document(f"<node><skew>45 1 0 0 0 1 0</skew>{show()}</node>"))
 
+    def test_faces_have_the_names_of_their_node_and_material(self, tmp_path):
+        bound = '<bind_material><instance_material symbol="m" target="#oak-1"/></bind_material>'
+        instance = f'<instance_geometry url="#box">{bound}</instance_geometry>'
+        shape = geometry().replace("<triangles ", '<triangles material="m" ')
+        library = '<library_materials><material id="oak-1" name="oak"/></library_materials>'
+        nodes = f'<node name="leg">{instance}</node><node name="group"><node>{show()}</node></node>'
+        labels = contents(put(tmp_path, document(nodes, shape, library))).shape.labels
+        assert [labels.count(name) for name in ("leg (oak)", "group (m)")] == [12, 12]
+
     def test_unit_and_up_axis_are_told(self, tmp_path):
         asset = '<unit meter="0,0254" name="inch"/><up_axis>Z_UP</up_axis>'
         found = contents(put(tmp_path, document(f"<node>{show()}</node>", asset=asset)))

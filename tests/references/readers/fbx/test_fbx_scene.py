@@ -160,6 +160,14 @@ class TestShown:
         assert found.shape.bounds.tolist() == [[0, 0, 0], [1, 1, 1]]
         assert found.notes == ("1 x lower level of detail left out",)
 
+    def test_faces_have_the_names_of_their_model_and_material(self, tmp_path):
+        layer = node("LayerElementMaterial", 0, below=[node("Materials", np.array([0] * 4 + [1] * 8, "i4"))])
+        materials = [node("Material", 7 + i, f"Material::{name}", "") for i, name in enumerate(("oak", "brass"))]
+        objects = [geometry(1, more=[layer]), model(2), model(3), *materials]
+        links = [(1, 2), (1, 3), (7, 2), (8, 2), (7, 3)]
+        found = contents(put(tmp_path, binary(scene(objects, *links)))).shape
+        assert [found.labels.count(name) for name in ("m2 (oak)", "m2 (brass)", "m3 (oak)", "m3")] == [4, 8, 4, 8]
+
     def test_unit_and_axes_are_told(self, tmp_path):
         settings = {
             "UpAxis": 2,

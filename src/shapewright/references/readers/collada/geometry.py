@@ -26,11 +26,13 @@ class Geometry:
         vertices: (V, 3).
         faces: (F, 3).
         left_out: how often what was left out, in words.
+        materials: what each stretch of faces calls its material, with its length.
     """
 
     vertices: Floats
     faces: Ints
     left_out: Mapping[str, int]
+    materials: tuple[tuple[str, int], ...] = ()
 
 
 def read_geometry(document: Document, geometry: Element) -> Geometry:
@@ -41,13 +43,14 @@ def read_geometry(document: Document, geometry: Element) -> Geometry:
         return Geometry(np.empty((0, 3)), np.empty((0, 3), np.int64), {form.replace("_", " "): 1})
     vertices = _positions(document, mesh)
     left_out: Counter[str] = Counter()
-    faces = [np.empty((0, 3), np.int64)]
+    faces, materials = [np.empty((0, 3), np.int64)], list[tuple[str, int]]()
     for primitive in mesh:
         if primitive.tag in _OTHERS:
             left_out[_OTHERS[primitive.tag]] += 1
         elif primitive.tag in ("triangles", "polylist", "polygons", "tristrips", "trifans"):
             faces.append(_faces(primitive, vertices))
-    return Geometry(vertices, np.concatenate(faces), left_out)
+            materials.append((primitive.get("material", ""), len(faces[-1])))
+    return Geometry(vertices, np.concatenate(faces), left_out, tuple(materials))
 
 
 def source(document: Document, inputs: Element, semantic: str) -> Element | None:

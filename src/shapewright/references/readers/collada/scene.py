@@ -71,7 +71,9 @@ def read_collada(path: Path, data: bytes) -> Scene:
             triangles += len(found.faces)
             refuse_too_many(triangles)
             pieces.append(placed(found.vertices, found.faces, matrix))
-            names.append((place.name, len(found.faces)))
+            called = _materials(document, instance)
+            for symbol, count in found.materials:
+                names.append((PartName.of(place.name.name, called.get(symbol, symbol)), count))
     notes = tuple(f"{count} x {what} left out" for what, count in left_out.items())
     return Scene(*join(pieces), notes, document.unit, document.up, Parts.of(names))
 
@@ -117,6 +119,16 @@ def _places(document: Document, scene: Element, left_out: Counter[str]) -> list[
         if len(places) + len(waiting) > _MOST:
             raise UnreadableError(f"its nodes stand in more than {_MOST:,} places")
     return places
+
+
+def _materials(document: Document, instance: Element) -> dict[str, str]:
+    """The names of materials by what the mesh of an instance calls them."""
+    found: dict[str, str] = {}
+    for bound in instance.iter("instance_material"):
+        material = document.by_id.get((bound.get("target") or "").removeprefix("#"))
+        if material is not None:
+            found[bound.get("symbol", "")] = material.get("name") or material.get("id")
+    return found
 
 
 def _named(places: list[_Place]) -> dict[str, Floats]:

@@ -43,6 +43,12 @@ class Object:
     node: Node
     properties: Mapping[str, Sequence[Value]]
 
+    @property
+    def name(self) -> str:
+        """What a person calls it."""
+        at = 1 if isinstance(self.key, int) else 0
+        return self.node.text(at).partition("\0\x01")[0].rpartition("::")[2]
+
     def number(self, name: str, usual: float) -> float:
         """A property that is a number."""
         return float(self.vector(name, (usual,))[0])

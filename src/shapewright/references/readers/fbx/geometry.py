@@ -24,11 +24,13 @@ class Geometry:
         key: the object that it is written in.
         vertices: (V, 3).
         faces: (F, 3).
+        materials: (F,), the number of the material of each face, among those of the model that shows the mesh.
     """
 
     key: Object
     vertices: Floats
     faces: Ints
+    materials: Ints
 
 
 def is_mesh(shape: Object) -> bool:
@@ -48,9 +50,11 @@ def read_geometry(document: Document, shape: Object) -> Geometry:
     corners = np.where(last, ~corners, corners)
     check_indices(corners, len(vertices))
     hole = _holes(shape, len(counts))
+    materials = _materials(shape, len(counts))[~hole]
     corners, counts = corners[np.repeat(~hole, counts)], counts[~hole]
     vertices = vertices + _blended(document, shape, len(vertices))
-    return Geometry(shape, vertices, triangulate(Polygons(vertices, corners, counts)))
+    faces = triangulate(Polygons(vertices, corners, counts))
+    return Geometry(shape, vertices, faces, np.repeat(materials, np.maximum(counts - 2, 0)))
 
 
 def _holes(shape: Object, count: int) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
@@ -61,6 +65,13 @@ def _holes(shape: Object, count: int) -> np.ndarray[tuple[int], np.dtype[np.bool
         told = layer.integers("Hole")[:count] != 0
         found[: len(told)] = told
     return found
+
+
+def _materials(shape: Object, count: int) -> Ints:
+    """The number of the material of each polygon: (count,)."""
+    layer = shape.node.child("LayerElementMaterial")
+    told = np.empty(0, dtype=np.int64) if layer is None else layer.integers("Materials")
+    return told if len(told) == count else np.full(count, told[0] if len(told) else 0)
 
 
 def _blended(document: Document, shape: Object, count: int) -> Floats:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from shapewright.references.parts import PartName, Parts
 from shapewright.references.readers.fbx.document import Document, Key, Object, parse
 from shapewright.references.readers.fbx.geometry import Geometry, is_mesh, read_geometry
 from shapewright.references.readers.fbx.skins import is_by_dual_quaternions, posed
@@ -49,7 +50,7 @@ def read_fbx(path: Path, data: bytes) -> Scene:
         own = stand[model.key].matrix @ inner
         return posed(document, geometry(key), stand, own, inner), own
 
-    pieces, triangles = list[Piece](), 0
+    pieces, names, triangles = list[Piece](), list[tuple[PartName, int]](), 0
     for model, shape in shown:
         if model.key in hidden or model.key in lower:
             left_out["mesh that is hidden" if model.key in hidden else "lower level of detail"] += 1
@@ -63,6 +64,7 @@ def read_fbx(path: Path, data: bytes) -> Scene:
             if not np.array_equal(own, at_first):
                 vertices = placed(vertices, faces, own @ np.linalg.pinv(at_first))[0]
             pieces.append((vertices, placed(vertices[:0], faces, own)[1]))
+            names += _names(document, model, geometry(shape.key))
         elif shape.form in _LEFT_OUT:
             left_out[f"{shape.form} without polygons"] += 1
     notes = tuple(f"{count} x {what} left out" for what, count in left_out.items() if count)
@@ -73,7 +75,7 @@ def read_fbx(path: Path, data: bytes) -> Scene:
         mirror[:3, :3] -= 2.0 * np.outer(axes[1], axes[1])
         vertices, faces = placed(vertices, faces, mirror)
     unit = document.settings.number("UnitScaleFactor", 1.0) * _CENTIMETRE
-    return Scene(vertices, faces, notes, unit if 0.0 < unit < np.inf else None, _named(axes[0]))
+    return Scene(vertices, faces, notes, unit if 0.0 < unit < np.inf else None, _named(axes[0]), Parts.of(names))
 
 
 def _shown(document: Document) -> Iterator[tuple[Object, Object]]:
@@ -83,6 +85,15 @@ def _shown(document: Document) -> Iterator[tuple[Object, Object]]:
             if model.node.child("Vertices") is not None or model.form in _LEFT_OUT:
                 yield model, model
             yield from ((model, shape) for shape in document.below(model.key, "Geometry") if shape.form != "Shape")
+
+
+def _names(document: Document, model: Object, shape: Geometry) -> Iterator[tuple[PartName, int]]:
+    """The name of a model with that of a material, for each stretch of faces that has both."""
+    materials = [each.name for each in document.below(model.key, "Material")]
+    starts = np.flatnonzero(np.diff(shape.materials, prepend=-1))
+    for start, count in zip(starts, np.diff([*starts, len(shape.materials)]), strict=True):
+        number = int(shape.materials[start])
+        yield PartName.of(model.name, materials[number] if 0 <= number < len(materials) else ""), int(count)
 
 
 def _hidden(document: Document) -> set[Key]:
