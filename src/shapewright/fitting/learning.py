@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -19,6 +19,7 @@ from shapewright.prediction.dataset import Dataset, join, make_dataset, shapes_o
 from shapewright.prediction.devices import pick
 from shapewright.prediction.inference import measure
 from shapewright.prediction.predictor import Predictor
+from shapewright.prediction.scanning import scanned
 from shapewright.prediction.training import Epoch, Schedule, train_network
 from shapewright.prediction.vgg import VGG19Network, find_weights
 from shapewright.procedures import Procedure
@@ -26,7 +27,7 @@ from shapewright.progress import Listener, Stages
 from shapewright.rendering.cameras import PAGE, Camera, starting_views
 from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, Budget
 from shapewright.settings import Searching, Settings
-from shapewright.shapes import Drawing, Mesh, Shape
+from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape, Shape
 
 FIRST = 256  # samples that are built and drawn before all others, for the first answer
 
@@ -92,6 +93,8 @@ def learn(crew: Workers, settings: Settings, stages: Stages, start: Start | None
     parts = [data.take(rows) for rows in split(len(data), settings.seed)]
     if settings.augment:
         parts[0] = augmented(parts[0], settings.seed, settings.workers)
+    if start and _has_points(reference.shape for reference in start.references):
+        parts = [scanned(part, settings.seed + number, settings.workers) for number, part in enumerate(parts)]
     failed = [build for build in builds if build.failure]
     facts = {
         "build_seconds": float(np.median([build.seconds for build in builds])),
@@ -120,6 +123,8 @@ def learn_more(
     added = _draw(space, fresh, lesson.predictor.cameras, settings, lesson.training.kind)
     if settings.augment:
         added = augmented(added, settings.seed + len(lesson.training), settings.workers)
+    if _has_points(lesson.training.shapes):
+        added = scanned(added, settings.seed + len(lesson.training), settings.workers)
     training = join([lesson.training, added])
     parts = [training, lesson.validation, lesson.held_out]
     schedule = _schedule(settings, lesson.predictor)
@@ -168,6 +173,10 @@ def _draw(
     good, shapes = shapes_of(builds, kind)
     vectors = [build.parameters for build in good]
     return make_dataset(space, vectors, shapes, cameras, settings.image_size, settings.workers)
+
+
+def _has_points(shapes: Iterable[ReferenceShape]) -> bool:
+    return any(isinstance(shape, Points) for shape in shapes)
 
 
 def _schedule(settings: Settings, previous: Predictor | None) -> Schedule:

@@ -13,7 +13,7 @@ from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.procedures import ProcedureError
 from shapewright.rendering.cameras import THREE_VIEWS, Camera
 from shapewright.rendering.raster import render
-from shapewright.shapes import Mesh, Shape
+from shapewright.shapes import Drawing, Mesh, ReferenceShape, Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,16 +24,16 @@ class Dataset:
     targets: NDArray[np.float32]  # (N, P) float32, encoded
     active: NDArray[np.bool_]  # (N, P) bool, whether the parameter matters there
     images: NDArray[np.uint8]  # (N, C, 2, S, S) uint8
-    shapes: list[Shape]  # N, normalised, all meshes or all drawings
+    shapes: list[ReferenceShape]  # N, normalised, all meshes or scans of them, or all drawings
     cameras: tuple[Camera, ...]  # C, that took the images
 
     def __len__(self) -> int:
         return len(self.parameters)
 
     @property
-    def kind(self) -> type[Shape]:
-        """Mesh or Drawing."""
-        return type(self.shapes[0])
+    def kind(self) -> type[Mesh] | type[Drawing]:
+        """What was built."""
+        return Drawing if isinstance(self.shapes[0], Drawing) else Mesh
 
     @property
     def size(self) -> int:
@@ -73,7 +73,7 @@ def shapes_of(builds: Sequence[Build], kind: type[Shape]) -> tuple[list[Build], 
 def make_dataset(
     space: ParameterSpace,
     parameters: Sequence[Parameters],
-    shapes: Sequence[Shape],
+    shapes: Sequence[ReferenceShape],
     cameras: Sequence[Camera] = THREE_VIEWS,
     size: int = 64,
     threads: int | None = None,

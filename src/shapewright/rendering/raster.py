@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from shapewright.rendering import splats
+from shapewright.rendering import point_pictures
 from shapewright.rendering.cameras import THREE_VIEWS, Camera, pack
 from shapewright.rendering.ink import picture
 from shapewright.shapes import Bytes, Floats, Ints, Mesh, Points, ReferenceShape
@@ -35,8 +35,8 @@ def render(
 
     Channel 0 is shading (0 background, a face 64 to 255 by its angle to a light that rides on the camera, both sides
     alike), channel 1 depth (0 background; 255 nearest, DEPTH_RADIUS before the origin, to 1 as far behind it). Each
-    pixel is the mean of supersample x supersample samples. Points are drawn as discs, see ``splats``. A drawing looks
-    the same to every camera, see ``ink.picture``.
+    pixel is the mean of supersample x supersample samples. Points are drawn as discs, see ``point_pictures``. A drawing
+    looks the same to every camera, see ``ink.picture``.
     """
     packed = pack(cameras)
     images = np.zeros((len(shapes), len(cameras), 2, size, size), dtype=np.uint8)
@@ -46,10 +46,7 @@ def render(
         if isinstance(shape, Mesh):
             _draw(shape.vertices, shape.faces, packed, size, supersample, images[i])
         elif isinstance(shape, Points):
-            radius = splats.radii(shape)
-            for camera, image in zip(cameras, images[i], strict=True):
-                buffers = splats.view(shape, camera, size * supersample, radius)
-                _resolve(*buffers, camera.distance, supersample, image)
+            images[i] = point_pictures.pictures(shape, cameras, size, supersample)
         else:
             images[i] = picture(shape, size, supersample)
 
