@@ -11,7 +11,7 @@ from scipy.ndimage import gaussian_filter
 from shapewright.rendering.cameras import Camera
 from shapewright.rendering.ink import coverage
 from shapewright.rendering.raster import render
-from shapewright.shapes import Drawing, Floats, Mesh, Shape
+from shapewright.shapes import Drawing, Floats, ReferenceShape, Shape
 
 _VIEWS = (Camera(35.0, 25.0), Camera(215.0, 25.0), Camera(0.0, 0.0), Camera(90.0, 0.0), Camera(125.0, -25.0))
 _SIZE, _STEP = 64, 4  # pixels along the side of a picture, and between its samples
@@ -22,7 +22,7 @@ CUT = 1.25
 """Groups merge up to this times the cut of the settings, which is made for likeness alone."""
 
 
-def remainder(reference: Shape, replica: Shape | None) -> Floats:
+def remainder(reference: ReferenceShape, replica: Shape | None) -> Floats:
     """A unit vector (K,): what is missing and what is too much, sampled from blurred pictures of depth, or of ink.
 
     Both shapes are normalised and neither is turned or mirrored. Without a replica all of the reference is missing. 0
@@ -51,8 +51,8 @@ def mixed(likeness: Floats, some: Floats, others: Floats) -> Floats:
     return np.asarray(_LIKENESS * np.minimum(likeness, 1.0) + (1.0 - _LIKENESS) * apart)
 
 
-def _seen(shape: Shape) -> Floats:
-    """(V, 64, 64): nearness of a mesh in each view, or the ink of a drawing in one, 0 to 1."""
-    if isinstance(shape, Mesh):
-        return render([shape.normalised()], _VIEWS, _SIZE, supersample=1, threads=1)[0, :, 1] / 255.0
-    return coverage(shape, _SIZE)[None]
+def _seen(shape: ReferenceShape) -> Floats:
+    """(V, 64, 64): nearness of a mesh or of points in each view, or the ink of a drawing in one, 0 to 1."""
+    if isinstance(shape, Drawing):
+        return coverage(shape, _SIZE)[None]
+    return render([shape.normalised()], _VIEWS, _SIZE, supersample=1, threads=1)[0, :, 1] / 255.0

@@ -22,15 +22,20 @@ from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
 from shapewright.rules.rule import Rule
+from shapewright.runs.folder import RunError
 from shapewright.runs.inputs import references_of
 from shapewright.runs.iteration import Iteration
-from shapewright.shapes import Drawing, Mesh
+from shapewright.shapes import Drawing, Mesh, Points
 from shapewright.threads import in_threads
 
 _OF_CAUSES = {"describe": 0.04, "differences": 0.06, "causes": 0.9}
 _SHARES = {"describe": 0.03, "differences": 0.04, "causes": 0.53, "hypotheses": 0.1, "trials": 0.3}
 """Of each stage in the time that explaining takes, without suggestions and with them: estimates, good enough to say
 about how long it takes still."""
+_POINTS = (
+    "the references are points: they are fitted and judged, but not explained, since explaining compares surfaces; "
+    "make meshes of them first, or look at the missing and surplus regions of the report"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,12 +73,16 @@ def explain(
         rules: the library that suggestions draw on; by default all of ``rules.library.library``.
 
     Raises:
-        RunError: the references are to be loaded, but were made in memory or are not where they were.
+        RunError: the references are to be loaded, but were made in memory or are not where they were; or all of them
+            are points. What is said goes by surfaces, and those of points are not known. Of a collection with meshes
+            the meshes are explained.
         KeyError: the collection lacks a reference of the iteration.
     """
     references = references or references_of(iteration)
     settings = replace(iteration.settings, workers=workers or iteration.settings.workers)
     collection = _collection(references, iteration)
+    if all(isinstance(reference.shape, Points) for reference in collection):
+        raise RunError(_POINTS)
     stages = Stages(progress, _SHARES if suggest and references.kind is Mesh else _OF_CAUSES)
     with Workers.of(procedure, settings) as crew:
         stages.begin("describe", len(collection))
@@ -117,7 +126,8 @@ def _collection(references: Collection, iteration: Iteration) -> Collection:
 def _cases(iteration: Iteration, built: Built, judge: Judge) -> list[Case]:
     """A case for each reference whose replica can be built and measured."""
     results = iteration.results
-    built = [(row, build) for row, build in built if isinstance(build.shape, Mesh)]
+    shapes = [reference.shape for reference in judge.references]
+    built = [(row, build) for row, build in built if isinstance(build.shape, Mesh) and isinstance(shapes[row], Mesh)]
     standings = judge.standings([build for _, build in built], [row for row, _ in built])
     found = [Replica.of(row, build, standing) for (row, build), standing in zip(built, standings, strict=True)]
     replicas = [replica for replica in found if replica]

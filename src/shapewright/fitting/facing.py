@@ -6,11 +6,12 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.comparison.posed import PosedDifference
+from shapewright.comparison.scans.scan_difference import scan_cost
 from shapewright.prediction.predictor import Predictor
 from shapewright.progress import Stages
 from shapewright.references import Collection
 from shapewright.settings import Searching
-from shapewright.shapes import Mesh, ReferenceShape, Shape
+from shapewright.shapes import Drawing, Mesh, ReferenceShape, Shape
 from shapewright.threads import in_threads
 
 _CLEARLY = 0.9
@@ -40,9 +41,9 @@ def _costs(references: Collection, predictor: Predictor, crew: Workers) -> list[
 
     def cost(pair: tuple[ReferenceShape, Shape | None]) -> float:
         reference, replica = pair
-        if isinstance(reference, Mesh) and isinstance(replica, Mesh):
-            return PosedDifference(reference)(replica)
-        return np.inf
+        if isinstance(reference, Drawing) or not isinstance(replica, Mesh):
+            return np.inf
+        return PosedDifference(reference)(replica) if isinstance(reference, Mesh) else scan_cost(reference, replica)
 
     pairs = [(shape, build.shape) for shape, build in zip(shapes, builds, strict=True)]
     return in_threads(cost, pairs, crew.count)

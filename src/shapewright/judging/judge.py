@@ -17,6 +17,7 @@ from shapewright.comparison.remainders import remainder
 from shapewright.judging.drawing_target import DrawingTarget
 from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.paper import Metric
+from shapewright.judging.scans.points_target import PointsTarget
 from shapewright.judging.target import Measures, Target
 from shapewright.judging.verdict import Evidence, Grade, Standing, Verdict, apart_of
 from shapewright.references import Collection
@@ -30,9 +31,9 @@ Rows = Sequence[int] | Ints  # indices of references in their collection
 
 
 def target_of(shape: ReferenceShape, settings: Settings, cache: Path | None = None) -> Target:
-    """What replicas of a mesh or of a drawing are measured against; cache: a folder that keeps descriptors."""
+    """What replicas are measured against; cache: a folder that keeps descriptors of meshes."""
     if isinstance(shape, Points):
-        raise TypeError("points cannot be judged yet; make a mesh of them")
+        return PointsTarget(shape, settings)
     return MeshTarget(shape, settings, cache) if isinstance(shape, Mesh) else DrawingTarget(shape, settings)
 
 

@@ -6,6 +6,7 @@ import functools
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -28,6 +29,13 @@ _GOAL = 1000.0
 """Of the cost by pictures in place. Of 324 replicas of vessels and houses that were labelled by eye 43 cost less: 36
 good ones, 7 passable ones, none that is wrong."""
 _FAR = FAR * Settings.threshold  # light-field distance from which on two references have nothing in common
+
+
+class Described(Protocol):
+    """What groups need of a target."""
+
+    @property
+    def descriptor(self) -> light_field.Descriptor | None: ...
 
 
 class MeshTarget:
@@ -117,20 +125,27 @@ class MeshTarget:
 
     @classmethod
     def groups(
-        cls, names: Sequence[str], targets: Sequence[MeshTarget], settings: Settings, left: Floats | None = None
+        cls, names: Sequence[str], targets: Sequence[Described], settings: Settings, left: Floats | None = None
     ) -> tuple[Group, ...]:
-        described = [descriptor for target in targets if (descriptor := target.descriptor)]
-        cut, absolute = (settings.cut, settings.cut_absolute) if left is None else (CUT * settings.cut, True)
-        if len(names) <= LARGE:
-            apart = light_field.distances(described, align=settings.align, threads=settings.workers)
-            return group(names, apart if left is None else mixed(apart / _FAR, left, left), cut, absolute)
+        return grouped(names, targets, settings, left)
 
-        def between(some: Sequence[int], others: Sequence[int]) -> Floats:
-            rows, columns = [described[i] for i in some], [described[i] for i in others]
-            apart = light_field.distances(rows, columns, settings.align, 1)
-            return apart if left is None else mixed(apart / _FAR, left[some], left[others])
 
-        return group_by_leaders(names, between, cut, absolute, threads=settings.workers)
+def grouped(
+    names: Sequence[str], targets: Sequence[Described], settings: Settings, left: Floats | None = None
+) -> tuple[Group, ...]:
+    """See ``Target.groups``; of meshes and of points alike, so a collection may hold both."""
+    described = [descriptor for target in targets if (descriptor := target.descriptor)]
+    cut, absolute = (settings.cut, settings.cut_absolute) if left is None else (CUT * settings.cut, True)
+    if len(names) <= LARGE:
+        apart = light_field.distances(described, align=settings.align, threads=settings.workers)
+        return group(names, apart if left is None else mixed(apart / _FAR, left, left), cut, absolute)
+
+    def between(some: Sequence[int], others: Sequence[int]) -> Floats:
+        rows, columns = [described[i] for i in some], [described[i] for i in others]
+        apart = light_field.distances(rows, columns, settings.align, 1)
+        return apart if left is None else mixed(apart / _FAR, left[some], left[others])
+
+    return group_by_leaders(names, between, cut, absolute, threads=settings.workers)
 
 
 def _descriptor(mesh: Mesh, cache: Path | None = None) -> light_field.Descriptor | None:

@@ -12,7 +12,7 @@ from shapewright.judging.paper import Metric
 from shapewright.judging.verdict import Evidence, Grade
 from shapewright.search.objective import Objective
 from shapewright.settings import Settings
-from shapewright.shapes import Floats, Shape
+from shapewright.shapes import Floats, ReferenceShape, Shape
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Measures:
     alone, and the IoU of volumes is of two that enclose one.
     """
 
-    distance: Annotated[float, "The paper's: light-field distance, or 1 - VIF"] = math.nan
+    distance: Annotated[float, "The paper's: light-field distance, or 1 - VIF; of a scan that of its points"] = math.nan
     iou: Annotated[float, "IoU of silhouettes, or of areas"] = math.nan
     chamfer: Annotated[float, "Chamfer distance, in largest extents"] = math.nan
     depth: Annotated[float, "Difference of depth pictures, 0 to 1"] = math.nan
@@ -61,7 +61,7 @@ class Target(Protocol):
     """
 
     @property
-    def shape(self) -> Shape:
+    def shape(self) -> ReferenceShape:
         """The reference."""
 
     @property

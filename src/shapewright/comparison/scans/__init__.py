@@ -1,0 +1,1 @@
+"""How a replica differs from points that are seen from some sides only."""

@@ -1,0 +1,1 @@
+"""Whether a replica stands for points that were seen from some sides only."""
