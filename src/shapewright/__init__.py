@@ -3,7 +3,7 @@
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from shapewright.parameters import Binary, Choice, Integer, ParameterSpace, Range, Scalar, When
+from shapewright.parameters import Binary, Choice, Integer, ParameterSpace, Range, Scalar, Seed, When
 from shapewright.procedures import Infeasible, Procedure, ProcedureError, load_procedure, procedure
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Points, Transform
@@ -74,6 +74,7 @@ __all__ = [
     "Range",
     "Reference",
     "Scalar",
+    "Seed",
     "Settings",
     "Transform",
     "Verdict",

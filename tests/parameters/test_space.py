@@ -125,7 +125,7 @@ def test_a_space_is_indexed_by_name():
     assert len(space) == 2 and space.names == ("p0", "p1") and space["p1"] == list(space)[1]
     with pytest.raises(KeyError, match="no parameter 'x'; there are p0, p1"):
         space["x"]
-    assert repr(space["p0"]) == "Scalar(name='p0', low=0.0, high=1.0, default=0.0, steps=3)"
+    assert repr(space["p0"]) == "Scalar(name='p0', low=0.0, high=1.0, default=0.0, steps=3, log=False, whole=False)"
 
 
 def test_values_are_carried_to_an_edited_space():

@@ -61,7 +61,6 @@ def test_random_passes_over_infeasible_parameters():
         (Annotated[str, Range(0, 1)], "annotation str is not supported"),
         (list[float], "is not supported"),
         (Annotated[int, Range(0.5, 2)], "needs whole ends"),
-        (Annotated[int, Range(0, 2, steps=3)], "leave steps out"),
         (Annotated[float, Range(2, 1)], "the lower one first"),
         (Literal["only"], "at least two options"),
     ],
@@ -79,11 +78,11 @@ def test_an_unsupported_annotation_names_the_parameter_and_the_line(annotation, 
 def test_other_signatures_without_a_space_are_refused():
     with pytest.raises(sw.ProcedureError, match="it has no parameters"):
         sw.procedure(lambda: TRIANGLE)
-    with pytest.raises(sw.ProcedureError, match=r"\* and \*\* parameters"):
+    with pytest.raises(sw.ProcedureError, match="none of its arguments has a Range"):
         sw.procedure(lambda *x: TRIANGLE)
     with pytest.raises(sw.ProcedureError, match="has no annotation"):
         sw.procedure(lambda x: TRIANGLE)
-    with pytest.raises(sw.ProcedureError, match="'x' stands before a /"):
+    with pytest.raises(sw.ProcedureError, match="has no annotation"):
         sw.procedure(lambda x, /: TRIANGLE)
 
 

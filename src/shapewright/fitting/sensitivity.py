@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from shapewright.building import Build
-from shapewright.parameters import Parameters, ParameterSpace
+from shapewright.parameters import Parameters, ParameterSpace, Value
 from shapewright.rendering.cameras import Camera
 from shapewright.rendering.raster import render
 
@@ -43,7 +43,9 @@ def without_effect(
 
 def _vary(space: ParameterSpace, name: str, values: Parameters, rng: np.random.Generator) -> Parameters:
     """The values with this parameter at another of its levels."""
-    levels = space[name].levels or [space[name].decode(float(share)) for share in np.linspace(0.0, 1.0, 5)]
+    parameter = space[name]
+    spread = [parameter.decode(float(share)) for share in np.linspace(0.0, 1.0, 5)]
+    levels: Sequence[Value] = parameter.levels or spread
     others = [level for level in levels if level != values[name]]
     return space.canonical({**values, name: others[int(rng.integers(len(others)))]})
 

@@ -8,9 +8,11 @@ from shapewright.parameters.kinds import (
     Parameters,
     Range,
     Scalar,
+    Seed,
     Side,
     Value,
     When,
+    whole_number,
 )
 from shapewright.parameters.prediction import Prediction
 from shapewright.parameters.records import from_record, to_record
@@ -28,9 +30,11 @@ __all__ = [
     "Prediction",
     "Range",
     "Scalar",
+    "Seed",
     "Side",
     "Value",
     "When",
     "from_record",
     "to_record",
+    "whole_number",
 ]

@@ -73,7 +73,7 @@ class ParameterSpace:
 
     def active(self, values: Mapping[str, Value]) -> tuple[str, ...]:
         """Names of the parameters that matter for these values, by their ``when``."""
-        namespace = SimpleNamespace(**values)
+        namespace = _namespace(values)
         return tuple(p.name for p in self.parameters if p.when is None or _holds(p, namespace))
 
     def canonical(self, values: Mapping[str, Value]) -> Parameters:
@@ -177,6 +177,16 @@ class ParameterSpace:
         for parameter in self._numbers(values):
             if side := parameter.end_at(values[parameter.name], margin):
                 yield parameter, side
+
+
+def _namespace(values: Mapping[str, Value]) -> SimpleNamespace:
+    """The values as attributes; ``legs.width`` is an attribute of ``legs``."""
+    plain = {name: value for name, value in values.items() if "." not in name}
+    inner: dict[str, dict[str, Value]] = {}
+    for name in values.keys() - plain.keys():
+        first, _, rest = name.partition(".")
+        inner.setdefault(first, {})[rest] = values[name]
+    return SimpleNamespace(**plain, **{name: _namespace(several) for name, several in inner.items()})
 
 
 def _nearest(parameter: Parameter, value: Value | None, otherwise: Value) -> Value:

@@ -13,7 +13,7 @@ from types import ModuleType
 from platformdirs import user_data_path
 
 from shapewright.procedures import ProcedureError
-from shapewright.procedures.procedure import executed
+from shapewright.procedures.loading import executed
 from shapewright.rules import bundled
 from shapewright.rules.rule import Rule
 from shapewright.storage import write_file

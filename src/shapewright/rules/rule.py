@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from shapewright.modelling.solids import Solid, Vector
 from shapewright.parameters import ParameterSpace
-from shapewright.procedures.procedure import space_of
+from shapewright.procedures.signature import signature_of
 
 Stance = Literal["under", "on", "beside", "front", "back", "within", "around", "body"]
 """Where a part stands in a shape: it carries the rest, stands on it, sticks out at a side, in front or at the back,
@@ -52,6 +52,6 @@ def rule(stance: Stance, turns: Literal[1, 2, 4] = 1) -> Callable[[Callable[...,
     """
 
     def made(function: Callable[..., Solid]) -> Rule:
-        return Rule(function, space_of(function, skip=1), stance, turns)
+        return Rule(function, signature_of(function, skip=1).space, stance, turns)
 
     return made

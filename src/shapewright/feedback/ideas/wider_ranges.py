@@ -49,7 +49,7 @@ def _widened(procedure: str, space: ParameterSpace, ranges: Ranges) -> FileChang
     limits = []
     for name, (low, high, _) in ranges.items():
         parameter = space[name]
-        if isinstance(parameter, Integer):
+        if isinstance(parameter, Scalar | Integer) and parameter.whole:
             limits.append(NewLimits(name, str(round(low)), str(round(high)), None))
         elif isinstance(parameter, Scalar):
             new = number(low) if low < parameter.low else None, number(high) if high > parameter.high else None

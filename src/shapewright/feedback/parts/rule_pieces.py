@@ -128,11 +128,11 @@ def _changes(piece: Piece, shift: float) -> Iterator[Any]:
 def _other(piece: Piece, parameter: Scalar | Integer, by: float) -> Piece | None:
     """With another value of a parameter, by so much of its Range."""
     away = by * (parameter.high - parameter.low)
-    if isinstance(parameter, Integer):
+    if parameter.whole:
         away = math.copysign(max(round(abs(away)), 1), by)
     before = piece.arguments[parameter.name]
     value = min(max(before + away, parameter.low), parameter.high)
-    value = round(value) if isinstance(parameter, Integer) else value
+    value = round(value) if parameter.whole else value
     return None if value == before else replace(piece, arguments={**piece.arguments, parameter.name: value})
 
 

@@ -211,7 +211,7 @@ def _of_rule(several: Sequence[Piece], name: str) -> tuple[str, list[Quantity]]:
     for parameter in rule.space:
         values = [piece.arguments[parameter.name] for piece in several]
         if isinstance(parameter, Scalar | Integer):
-            limits, whole = (parameter.low, parameter.high), isinstance(parameter, Integer)
+            limits, whole = (parameter.low, parameter.high), parameter.whole
             asked.append(Quantity(f"{name}_{parameter.name}", tuple(map(float, values)), whole, limits))
             filling += f", {parameter.name}={asked[-1].name}"
         elif (usual := max(dict.fromkeys(values), key=values.count)) != parameter.default:

@@ -1,0 +1,149 @@
+"""Loading a procedure from the author's file, or from a module."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import inspect
+import linecache
+import sys
+import sysconfig
+from pathlib import Path
+from types import ModuleType
+from typing import Any, TypeAlias
+
+from shapewright.procedures.errors import ProcedureError
+from shapewright.procedures.places import Place, describe, place_of
+from shapewright.procedures.procedure import Procedure
+
+
+def load_procedure(source: str | Path) -> Procedure:
+    """The one procedure of a Python file, or of a module that can be imported.
+
+    source: a file in any folder, with its own imports; a file and the name of one of several (``file.py:name``); a
+        module and a name (``package.module:name``). A name may also be that of a function without ``@procedure``.
+
+    Of a file those that are defined in it count; if there are none, those that it imports or gets made elsewhere.
+    Raises ProcedureError, pointing at the author's line, when the file is missing, fails, or has not one procedure.
+    """
+    path, name, module = _from_module(str(source)) or _from_file(source)
+    place = path or module.__name__
+    named = {key: value for key, value in vars(module).items() if isinstance(value, Procedure)}
+    own = {key: value for key, value in named.items() if _defined_in(value, path)}
+    found = {value.name: value for value in (own or named).values()}
+    if name is not None:
+        chosen = named.get(name) or found.get(name) or _made(vars(module).get(name))
+        if chosen is None:
+            there = f"there is {', '.join(found)}" if found else "there is none"
+            raise ProcedureError(f"{place}: no procedure {name!r} in this file; {there}")
+    elif not found:
+        raise ProcedureError(f"{place}: no procedure in this file; write @procedure above the function that builds")
+    elif len(found) > 1:
+        raise ProcedureError(
+            f"{place}: several procedures ({', '.join(found)}); say which: {place}:{next(iter(found))}"
+        )
+    else:
+        (chosen,) = found.values()
+    chosen.path = path
+    return chosen
+
+
+def _made(function: Any) -> Procedure | None:
+    """A function without the decorator as a procedure."""
+    return Procedure(function) if inspect.isfunction(function) or isinstance(function, functools.partial) else None
+
+
+def _defined_in(procedure: Procedure, path: Path | None) -> bool:
+    return path is not None and Path(procedure.place.file) == path
+
+
+_Found: TypeAlias = tuple[Path | None, str | None, ModuleType]
+"""A file, the name that is asked for, and what the file defines."""
+
+
+def _from_file(source: str | Path) -> _Found:
+    path, name = _split(source)
+    return path, name, executed(path)
+
+
+def _from_module(source: str) -> _Found | None:
+    """What ``package.module:name`` means; None where it is a path."""
+    dotted, colon, name = source.rpartition(":")
+    dotted_name = all(part.isidentifier() for part in [*dotted.split("."), name])
+    if not colon or not dotted_name or dotted.endswith(".py") or Path(source).exists():
+        return None
+    if (here := str(Path.cwd())) not in sys.path:
+        sys.path.insert(_behind_standard_library(), here)
+    try:
+        module = importlib.import_module(dotted)
+    except ModuleNotFoundError as error:
+        if dotted == error.name or dotted.startswith(f"{error.name}."):
+            raise ProcedureError(f"{source}: there is no module {error.name}, and no such file") from error
+        raise ProcedureError(describe(error), place_of(error, None)) from error
+    except Exception as error:
+        raise ProcedureError(describe(error), place_of(error, None)) from error
+    return Path(module.__file__).resolve() if module.__file__ else None, name, module
+
+
+def _split(path: str | Path) -> tuple[Path, str | None]:
+    file, _, name = str(path).rpartition(":")
+    named = file.endswith(".py")
+    resolved = Path(file if named else path).expanduser().resolve()
+    if resolved.is_dir():
+        raise ProcedureError(f"{resolved}: this is a folder; name the Python file of the procedure")
+    if not resolved.is_file():
+        raise ProcedureError(f"{resolved}: no such file")
+    return resolved, name if named else None
+
+
+def executed(path: Path) -> ModuleType:
+    """The module of an author's file, with its own imports. Raises ProcedureError, pointing at the line that fails."""
+    module = ModuleType(f"shapewright_author_{path.stem}")
+    module.__file__ = str(path)
+    folder = str(path.parent)
+    before = set(sys.modules)
+    sys.modules[module.__name__] = module
+    sys.path.insert(_behind_standard_library(), folder)
+    linecache.checkcache(str(path))
+    try:
+        exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
+    except ProcedureError:
+        raise
+    except SyntaxError as error:
+        place = Place(error.filename or str(path), error.lineno, (error.text or "").strip() or None)
+        raise ProcedureError(error.msg, place) from error
+    except Exception as error:
+        raise ProcedureError(describe(error) + _hidden_helper(error, path.parent), place_of(error, path)) from error
+    except SystemExit as error:
+        raise ProcedureError(f"{path}: the file ended the program (sys.exit) while it was read") from error
+    finally:
+        sys.path.remove(folder)
+        if folder not in sys.path:
+            sys.path.append(folder)
+        _forget_siblings(path.parent, before)
+    return module
+
+
+def _behind_standard_library() -> int:
+    """Where in ``sys.path`` the author's folder goes: before other packages, behind Python's own modules.
+
+    Libraries import those late too, and would get the author's file of the same name.
+    """
+    own = {sysconfig.get_path("stdlib"), sysconfig.get_path("platstdlib")}
+    own |= {str(Path(folder) / "lib-dynload") for folder in own}
+    return max((i + 1 for i, folder in enumerate(sys.path) if folder in own), default=0)
+
+
+def _hidden_helper(error: Exception, folder: Path) -> str:
+    """What an import of the author's own file means that has the name of one of Python's modules."""
+    name = error.name.partition(".")[0] if isinstance(error, ImportError) and error.name else ""
+    hidden = name in sys.stdlib_module_names and (folder / f"{name}.py").is_file()
+    return f"; {folder / name}.py has the name of one of Python's modules: rename it" if hidden else ""
+
+
+def _forget_siblings(folder: Path, before: set[str]) -> None:
+    """Drop the author's own helper modules, so that another folder's of the same name, or an edit, is read anew."""
+    for name in set(sys.modules) - before:
+        file = getattr(sys.modules[name], "__file__", None)
+        if file and Path(file).is_relative_to(folder) and "site-packages" not in file:
+            del sys.modules[name]
