@@ -62,7 +62,8 @@ class Parts:
         names = tuple(dict.fromkeys(word for word in words if word))
         if not names:
             return mesh
-        number = np.array([names.index(word) if word else -1 for word in words], dtype=np.int64)
+        places = {word: i for i, word in enumerate(names)}
+        number = np.array([places.get(word, -1) for word in words], dtype=np.int64)
         return replace(mesh, face_labels=number[self.of_faces[faces]], label_names=names)
 
 

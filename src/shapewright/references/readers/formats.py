@@ -111,6 +111,7 @@ def contents(path: Path) -> Contents:
             return _points(_CLOUDS[kind](data) if kind in _CLOUDS else _CLOUD_FILES[kind](path, data))
         if kind in _POLYGONS:
             polygons = _polygons(kind, data)
+            data = b""  # large text need not be held any longer
             if isinstance(polygons, Cloud):
                 return _points(polygons)
             vertices, notes = polygons.vertices, polygons.notes
@@ -158,11 +159,13 @@ def sound(vertices: Floats, faces: Ints, parts: Parts | None = None) -> tuple[Me
     if not len(faces):
         raise UnreadableError("no triangles, only points or lines" if len(vertices) else "it holds no triangles")
     check_indices(faces, len(vertices))
-    finite = np.asarray(np.isfinite(vertices).all(axis=1))[faces].all(axis=1)
+    everywhere = bool(np.isfinite(vertices).all())
+    ends = np.ones(len(vertices), dtype=bool) if everywhere else np.asarray(np.isfinite(vertices).all(axis=1))
+    finite = np.ones(len(faces), dtype=bool) if everywhere else ends[faces].all(axis=1)
     if not finite.any():
         raise UnreadableError("no triangle has finite corners: all use NaN or infinity")
     used = np.zeros(len(vertices), dtype=bool)
-    used[faces[finite]] = True
+    used[faces if everywhere else faces[finite]] = True
     whole = bool(used.all() and finite.all())
     mesh = Mesh(vertices, faces) if whole else Mesh(vertices[used], (np.cumsum(used) - 1)[faces[finite]])
     size = float(np.ptp(mesh.vertices, axis=0).max()) if np.abs(mesh.vertices).max() < _LARGEST else np.inf

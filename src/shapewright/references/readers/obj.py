@@ -17,7 +17,7 @@ from shapewright.references.errors import UnreadableError
 from shapewright.references.parts import PartName, Parts
 from shapewright.references.readers.clouds.cloud import Cloud
 from shapewright.references.readers.polygons import Polygons
-from shapewright.references.readers.text import Rows, lines, numbers, plain, rows, shown
+from shapewright.references.readers.text import LONG, Rows, lines, numbers, plain, rows, shown
 from shapewright.shapes import Floats, Ints
 
 _SURFACES = frozenset(b"curv curv2 surf bzp bsp cdc cdp res".split())
@@ -32,6 +32,9 @@ _OTHERS = frozenset(
 """The keywords of version 3.0 that are passed over (Wavefront, "Advanced Visualizer Manual", appendix B1)."""
 _AT_ONCE = 10_000
 """Lines whose text is held at once, 1 MB of it: it stays in the cache of a core."""
+_BLOCK, _ODD, _WORTH = 2**22, 2**19, 2**12
+"""Bytes of long texts: of lines that kernels read at once, of lines around one that they cannot read, and of lines
+before a name for which they are worth a call."""
 _COMMENT = re.compile(rb"(?<!\d\.)#[^\n]*+")  # but not in 1.#IND
 
 
@@ -40,14 +43,35 @@ def read_obj(data: bytes) -> Polygons | Cloud:
 
     Raises UnreadableError with the line that cannot be understood.
     """
-    points, corners, counts = [np.empty((0, 3))], [np.empty(0, np.int64)], [np.empty(0, np.int64)]
-    others: Counter[bytes] = Counter()
-    above = polygons = 0
-    part = PartName()
-    begun = [(part, 0)]  # parts, each with the polygons above it
     text = plain(data)
-    left = _continued(lines(text)) if b"\\" in text else lines(text)
-    while batch := list(islice(left, _AT_ONCE)):
+    read = _Read()
+    if len(text) >= LONG and b"\\" not in text:
+        read.add_long(text)
+    else:
+        left = _continued(lines(text)) if b"\\" in text else lines(text)
+        while batch := list(islice(left, _AT_ONCE)):
+            read.add_lines(batch)
+    return read.result()
+
+
+class _Read:
+    """What has been read of a file, up to some line."""
+
+    def __init__(self) -> None:
+        self.points, self.corners, self.counts = [np.empty((0, 3))], [np.empty(0, np.int64)], [np.empty(0, np.int64)]
+        self.others: Counter[bytes] = Counter()
+        self.vertices = self.polygons = 0
+        self.part = PartName()
+        self.begun = [(self.part, 0)]  # parts, each with the polygons above it
+
+    def add(self, points: Floats, corners: Ints, counts: Ints) -> None:
+        self.points.append(points)
+        self.corners.append(corners)
+        self.counts.append(counts)
+        self.vertices += len(points)
+        self.polygons += len(counts)
+
+    def add_lines(self, batch: Iterable[bytes]) -> None:
         vertices: list[bytes] = []
         faces: list[bytes] = []
         before: list[int] = []  # vertices above each face, from which relative indices count
@@ -57,24 +81,39 @@ def read_obj(data: bytes) -> Polygons | Cloud:
                 vertices += rest or [b""]
             elif keyword in (b"f", b"fo"):  # "fo" is that of version 2
                 faces += rest or [b""]
-                before.append(above + len(vertices))
+                before.append(self.vertices + len(vertices))
             elif not keyword.startswith(b"#"):
-                others[keyword] += 1
+                self.others[keyword] += 1
                 if keyword in _NAMING:
-                    part = _named(keyword, rest, part)
-                    begun.append((part, polygons + len(before)))
-        points.append(_points(vertices))
-        indices, sizes = _corners(faces, before)
-        corners.append(indices)
-        counts.append(sizes)
-        above += len(vertices)
-        polygons += len(before)
-    ends = [*(start for _, start in begun[1:]), polygons]
-    parts = Parts.of((part, end - start) for (part, start), end in zip(begun, ends, strict=True))
-    notes = tuple(_notes(others))
-    if above and not polygons and not others.keys() & (_SURFACES | {b"l"}):
-        return Cloud(np.concatenate(points), notes=notes)
-    return Polygons(np.concatenate(points), np.concatenate(corners), np.concatenate(counts), notes, parts)
+                    self.part = _named(keyword, rest, self.part)
+                    self.begun.append((self.part, self.polygons + len(before)))
+        self.add(_points(vertices), *_corners(faces, before))
+
+    def add_long(self, text: bytes) -> None:
+        """A whole text: kernels read it as far as they understand it."""
+        from shapewright.references.readers.kernels.words import LINE, obj_lines
+
+        letters, sign = np.frombuffer(text, np.uint8), b"\n" if b"\n" in text else b"\r"
+        at = 0
+        while at < len(text):
+            begin, stop = at, text.find(sign, at + _BLOCK) + 1 or len(text)
+            points, corners, counts, at, why = obj_lines(letters, at, stop, self.vertices)
+            self.add(points, corners, counts)
+            if why:
+                # Names and odd lines that are frequent are read faster together than one by one.
+                alone = why == LINE and at - begin > _WORTH
+                end = text.find(sign, at if alone else at + _ODD) + 1 or len(text)
+                self.add_lines(text[at:end].splitlines())
+                at = end
+
+    def result(self) -> Polygons | Cloud:
+        ends = [*(start for _, start in self.begun[1:]), self.polygons]
+        parts = Parts.of((part, end - start) for (part, start), end in zip(self.begun, ends, strict=True))
+        notes = tuple(_notes(self.others))
+        points = np.concatenate(self.points)
+        if self.vertices and not self.polygons and not self.others.keys() & (_SURFACES | {b"l"}):
+            return Cloud(points, notes=notes)
+        return Polygons(points, np.concatenate(self.corners), np.concatenate(self.counts), notes, parts)
 
 
 def _named(keyword: bytes, rest: Sequence[bytes], before: PartName) -> PartName:
@@ -97,7 +136,8 @@ def _corners(lines: Sequence[bytes], before: Sequence[int]) -> tuple[Ints, Ints]
     table = _table(b"f", lines, 1)
     if len(odd := np.flatnonzero(table.values % 1.0 != 0.0)):
         raise UnreadableError(f"broken: a face has the corner {table.values[odd[0]]:g}")
-    indices = table.values.astype(np.int64)
+    with np.errstate(invalid="ignore"):  # beyond all vertices anyway
+        indices = table.values.astype(np.int64)
     relative = (
         np.repeat(np.array(before, dtype=np.int64), table.lengths) + indices
     )  # where it is negative: before the first vertex

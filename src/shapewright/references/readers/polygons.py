@@ -47,6 +47,8 @@ def triangulate(polygons: Polygons) -> Ints:
     """
     vertices, corners, counts = polygons.vertices, polygons.corners, polygons.counts
     check_indices(corners, len(vertices))
+    if (counts == 3).all():
+        return corners.reshape(-1, 3)
     starts = np.cumsum(counts) - counts
     triangles = np.maximum(counts - 2, 0)
     firsts = np.cumsum(triangles) - triangles

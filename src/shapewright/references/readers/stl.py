@@ -14,7 +14,7 @@ import numpy as np
 from shapewright.references.errors import UnreadableError
 from shapewright.references.parts import PartName, Parts
 from shapewright.references.readers.polygons import Polygons
-from shapewright.references.readers.text import PADDING, numbers, plain, shown
+from shapewright.references.readers.text import LONG, PADDING, numbers, plain, shown
 from shapewright.shapes import Floats, Ints
 
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -31,6 +31,8 @@ _SOLID = re.compile(
 _ENDSOLID = re.compile(rb"\s*+endsolid(?=\s|\Z)[^\r\n]*?(?=[\r\n]|\s+solid\s[^\r\n]*?facet\s|\Z)", re.IGNORECASE)
 _AT_ONCE = 50_000
 """Facets whose text is held at once, 6 MB of it."""
+_ODD = 1000
+"""Facets of a long text from one on that a kernel cannot read."""
 
 
 def read_stl(data: bytes) -> Polygons:
@@ -86,9 +88,17 @@ def _text(text: bytes) -> Polygons:
     counts: list[Ints] = []
     at, facets, opened, name = 0, 0, False, PartName()
     solids: list[tuple[PartName, int]] = []
+    long = len(text) >= LONG
+    room = np.empty((3 * text.count(b"endfacet"), 3)) if long else np.empty((0, 3))
     while at < len(text):
+        if len(room):
+            found, at = _long_facets(text, at, room)
+            points += [room[: 3 * found]] if found else []
+            counts.append(np.full(found, 3))
+            solids.append((name, found))
+            facets, room = facets + found, room[3 * found :]
         loops: list[bytes] = []
-        while len(loops) < _AT_ONCE and (facet := _SMALL.match(text, at) or _ANY.match(text, at)):
+        while len(loops) < (_ODD if long else _AT_ONCE) and (facet := _SMALL.match(text, at) or _ANY.match(text, at)):
             loops.append(facet[1].lower())
             at = facet.end()
         if loops:
@@ -115,7 +125,17 @@ def _text(text: bytes) -> Polygons:
     return replace(_facets(points, counts, notes), parts=Parts.of(solids))
 
 
+def _long_facets(text: bytes, at: int, room: Floats) -> tuple[int, int]:
+    """Put the corners of triangles into ``room`` (3 F, 3), from a place on, as far as a kernel reads facets.
+
+    Returns how many triangles there are, and the place behind the last.
+    """
+    from shapewright.references.readers.kernels.words import stl_facets
+
+    return stl_facets(np.frombuffer(text, np.uint8), at, room)
+
+
 def _facets(points: list[Floats], counts: list[Ints], notes: tuple[str, ...]) -> Polygons:
     """Polygons of which each corner has a vertex of its own."""
-    vertices = np.concatenate([np.empty((0, 3)), *points])
+    vertices = points[0] if len(points) == 1 else np.concatenate([np.empty((0, 3)), *points])
     return Polygons(vertices, np.arange(len(vertices)), np.concatenate([np.empty(0, np.int64), *counts]), notes)

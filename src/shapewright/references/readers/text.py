@@ -22,6 +22,9 @@ _MARKS = {
 PADDING = b"\0\x1a \t\r\n\v\f"
 """Bytes that programs write behind the end of a text: zeros, the end-of-file sign of DOS, white space."""
 _BLOCK = 2**22  # bytes of text whose lines are held at once
+LONG = 2**23
+"""Bytes of a text from which kernels read it: they take half a second to load, as much as words take by numpy alone."""
+_PIECE = 2**20  # bytes of text whose numbers are held at once
 _WINDOWS = re.compile(rb"([-+]?)1\.#(INF|IND|QNAN|SNAN)0*", re.IGNORECASE)
 """What is not finite, as C libraries of Windows print it."""
 
@@ -93,6 +96,35 @@ class Rows:
 
 def rows(text: bytes) -> Rows:
     """The numbers of every line. Raises UnreadableError for a word that is no number."""
+    if len(text) < LONG:
+        return _rows(text)
+    pieces: list[Rows] = []
+    for start, end in _pieces(text):
+        piece = text[start:end]
+        found = _fast_rows(piece) if end - start <= 4 * _PIECE else None
+        pieces.append(found or _rows(piece))
+    firsts = np.cumsum([0, *(len(piece.values) for piece in pieces)])
+    starts = [piece.starts[:-1] + first for piece, first in zip(pieces, firsts[:-1], strict=True)]
+    return Rows(np.concatenate([piece.values for piece in pieces]), np.concatenate([*starts, firsts[-1:]]))
+
+
+def _pieces(text: bytes) -> Iterator[tuple[int, int]]:
+    """Where each begins and ends: lines, about _PIECE bytes of them, or one that is longer."""
+    sign, start = b"\n" if b"\n" in text else b"\r", 0
+    while start < len(text):
+        end = text.find(sign, start + _PIECE) + 1 or len(text)
+        yield start, end
+        start = end
+
+
+def _fast_rows(text: bytes) -> Rows | None:
+    from shapewright.references.readers.kernels.words import numbers_of_rows
+
+    found = numbers_of_rows(np.frombuffer(text, np.uint8))
+    return Rows(found[0], np.append(found[1], len(found[0]))) if found else None
+
+
+def _rows(text: bytes) -> Rows:
     letters = np.frombuffer(text, np.uint8)
     gaps = letters <= ord(" ")
     begins = ~gaps

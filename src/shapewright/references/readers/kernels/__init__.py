@@ -1,0 +1,1 @@
+"""Long texts of numbers, read at the speed of C."""
