@@ -12,10 +12,11 @@ from typing import Any
 
 from shapewright.references import sources
 from shapewright.references.errors import CollectionError, UnreadableError
-from shapewright.references.orientation import Orientation
+from shapewright.references.orientation import AxesBy, Orientation
 from shapewright.references.readers import formats as files
 from shapewright.references.reading import Readers
 from shapewright.references.reference import Reference, normalised
+from shapewright.references.scans.steps import Kept, kept
 from shapewright.shapes import Drawing, Mesh
 from shapewright.shapes.conversion import as_reference
 from shapewright.storage import printable
@@ -36,6 +37,7 @@ class Collection:
         origins: absolute paths or patterns to load it from again; empty for one made in memory.
         up: the axis of the files that points up.
         front: the axis of the files that points to the front; None for the usual one.
+        keep: what was left in points.
     """
 
     references: tuple[Reference, ...]
@@ -44,6 +46,7 @@ class Collection:
     origins: tuple[str, ...] = ()
     up: str = "y"
     front: str | None = None
+    keep: tuple[Kept, ...] = ()
 
     def __post_init__(self) -> None:
         drawings = [reference.name for reference in self if isinstance(reference.shape, Drawing)]
@@ -60,6 +63,7 @@ class Collection:
         *,
         up: str = "y",
         front: str | None = None,
+        keep: Iterable[str] = (),
     ) -> Collection:
         """Read a collection from a folder, an archive, a glob pattern, a CSV manifest, a file, or a list of these.
 
@@ -72,11 +76,14 @@ class Collection:
             up: the axis of the mesh files that points up, among x, y, z, -x, -y, -z. A file whose format says which
                 axis that is, as 3MF does, goes by its format where this is y.
             front: the axis that points to the front; by default z, or -y where up is z or -z, as in Blender and CAD.
+            keep: what is left in points, of floor, density and strays: see docs/howto.md. By default a floor is taken
+                off, points are left out where they are much denser than elsewhere, and so are stray ones.
         """
         origins = [source] if isinstance(source, str | os.PathLike) else list(source)
         references: list[Reference] = []
         skipped: dict[Path, str] = {}
-        found = sources.find(origins, up, front)
+        steps = kept(keep)
+        found = sources.find(origins, up, front, steps)
         with Readers() as readers:
             results = readers.read(found)
         for file, result in zip(found, results, strict=True):
@@ -88,19 +95,23 @@ class Collection:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
         again = tuple(str(Path(origin).expanduser().absolute()) for origin in origins)
-        return cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front)
+        return cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front, steps)
 
     @classmethod
-    def of(cls, shapes: Mapping[str, Any], *, up: str = "y", front: str | None = None) -> Collection:
+    def of(
+        cls, shapes: Mapping[str, Any], *, up: str = "y", front: str | None = None, keep: Iterable[str] = ()
+    ) -> Collection:
         """A collection of named shapes in memory: Points, a point cloud, or what procedures return, such as a trimesh.
 
-        ``up`` and ``front`` as for ``load``. Raises CollectionError for a shape that cannot be used.
+        ``up``, ``front`` and ``keep`` as for ``load``. Raises CollectionError for a shape that cannot be used.
         """
         orientation = Orientation.of(up, front)
         if not shapes:
             raise CollectionError("no shapes given; a collection needs at least one")
-        references = [_in_memory(name, shapes[name], orientation) for name in sorted(shapes, key=sources.natural_key)]
-        return cls(tuple(references))
+        by: AxesBy = "author" if sources.is_authors(up, front) else "default"
+        names, steps = sorted(shapes, key=sources.natural_key), kept(keep)
+        references = [_in_memory(name, shapes[name], orientation, by, steps) for name in names]
+        return cls(tuple(references), keep=steps)
 
     def turned(self, quarters: Sequence[int]) -> Collection:
         """The collection with every reference turned about the up axis: see ``Reference.turned``."""
@@ -140,7 +151,7 @@ class Collection:
         return f"Collection({len(self)} references from {self.source}{skipped})"
 
 
-def _in_memory(name: str, value: Any, orientation: Orientation) -> Reference:
+def _in_memory(name: str, value: Any, orientation: Orientation, by: AxesBy, keep: Sequence[Kept]) -> Reference:
     try:
         shape = as_reference(value)
         shape, notes = files.sound(shape.vertices, shape.faces) if isinstance(shape, Mesh) else (shape, ())
@@ -149,7 +160,7 @@ def _in_memory(name: str, value: Any, orientation: Orientation) -> Reference:
         raise CollectionError(f"{name}: {which}") from error
     except ValueError as error:
         raise CollectionError(f"{name}: {error}") from error
-    return normalised(name, None, shape, orientation, notes)
+    return normalised(name, None, shape, orientation, notes, by, keep)
 
 
 def _nothing_readable(skipped: Mapping[Path, str]) -> str:

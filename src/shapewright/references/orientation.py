@@ -18,8 +18,8 @@ QUARTER_TURNS = tuple(
 AXES = ("x", "y", "z", "-x", "-y", "-z")
 
 
-AxesBy: TypeAlias = Literal["author", "format", "default"]
-"""Who says which axes of a file point up and to the front: its author, the file's format, or nobody."""
+AxesBy: TypeAlias = Literal["author", "format", "floor", "default"]
+"""Who says which axes of a file point up and to the front: its author, its format, a floor in a scan, or nobody."""
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -13,6 +14,9 @@ from shapewright.references import sources
 from shapewright.references.errors import UnreadableError
 from shapewright.references.orientation import QUARTER_TURNS, AxesBy, Orientation
 from shapewright.references.readers import formats as files
+from shapewright.references.scans.cleaning import cleaned
+from shapewright.references.scans.floor import up_by_floor
+from shapewright.references.scans.steps import Kept
 from shapewright.shapes import Drawing, Floats, Mesh, Points, ReferenceShape, Transform, shape_digest
 
 
@@ -93,13 +97,29 @@ def read_reference(source: sources.Source) -> Reference:
     by_format = found.up is not None and not source.by_author
     orientation = Orientation.of(found.up) if found.up and by_format else source.orientation
     by: AxesBy = "author" if source.by_author else "format" if by_format else "default"
-    reference = normalised(source.name, source.place, found.shape, orientation, found.notes)
-    return replace(reference, axes_by=by, unit=found.unit)
+    reference = normalised(source.name, source.place, found.shape, orientation, found.notes, by, source.keep)
+    return replace(reference, unit=found.unit)
 
 
 def normalised(
-    name: str, path: Path | None, shape: ReferenceShape, orientation: Orientation, notes: tuple[str, ...]
+    name: str,
+    path: Path | None,
+    shape: ReferenceShape,
+    orientation: Orientation,
+    notes: tuple[str, ...] = (),
+    by: AxesBy = "default",
+    keep: Sequence[Kept] = (),
 ) -> Reference:
-    """A reference of a shape that stands as its file holds it."""
+    """A reference of a shape that stands as its file holds it.
+
+    Points are cleaned; where nobody says which axis of theirs points up, their floor does. by: who says it. keep: what
+    is left in points.
+    """
+    if isinstance(shape, Points) and by == "default" and "floor" not in keep and (up := up_by_floor(shape.positions)):
+        notes = (*notes, *(() if up == orientation.up else (f"{up} points up: the floor says so",)))
+        orientation, by = orientation if up == orientation.up else Orientation.of(up), "floor"
     turned = shape if isinstance(shape, Drawing) else shape.transformed(orientation.matrix)
-    return Reference(name, path, turned.normalised(), turned.normalisation(), orientation, notes)
+    if isinstance(turned, Points):
+        turned, told = cleaned(turned, keep)
+        notes = (*notes, *told)
+    return Reference(name, path, turned.normalised(), turned.normalisation(), orientation, notes, by)

@@ -9,7 +9,7 @@ import io
 import os
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
@@ -20,6 +20,7 @@ from shapewright.references.orientation import Orientation
 from shapewright.references.other_kinds import refusal
 from shapewright.references.readers.formats import CLOUDS, EXTENSIONS, MESHES
 from shapewright.references.readers.pictures import KINDS as PICTURES
+from shapewright.references.scans.steps import Kept, kept
 from shapewright.storage import printable
 
 Origin: TypeAlias = str | os.PathLike[str]
@@ -46,6 +47,7 @@ class Source:
         inside: its path in the archive.
         refusal: why it is not read, where that is known by its name or place; else None.
         by_author: whether the author says which axes these are. Else a format that says so itself knows better.
+        keep: what is left in points, see ``scans.steps``.
     """
 
     name: str
@@ -55,6 +57,7 @@ class Source:
     inside: Path = Path()
     refusal: str | None = None
     by_author: bool = False
+    keep: tuple[Kept, ...] = ()
 
     @property
     def place(self) -> Path:
@@ -62,7 +65,7 @@ class Source:
         return self.archive / self.inside if self.archive else self.path
 
 
-def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> list[Source]:
+def find(origins: Sequence[Origin], up: str = "y", front: str | None = None, keep: Iterable[str] = ()) -> list[Source]:
     """The files of a collection, in natural order of their names (chair2 before chair10).
 
     A folder gives the files in it and in all folders below, but those that this program wrote there: runs and samples.
@@ -88,7 +91,8 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None) -> 
         raise CollectionError(f"cannot look into {error.filename}: {error.strerror}") from error
     places = [Path(printable(one.place)) for one in sources]
     names = _unique([printable(one.name) for one in sources], places)
-    named = (replace(source, name=name) for source, name in zip(sources, names, strict=True))
+    steps = kept(keep)
+    named = (replace(source, name=name, keep=steps) for source, name in zip(sources, names, strict=True))
     return sorted(named, key=lambda source: natural_key(source.name))
 
 

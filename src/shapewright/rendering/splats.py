@@ -33,7 +33,7 @@ def radii(points: Points) -> Floats:
 def view(points: Points, camera: Camera, size: int, radius: Floats | None = None) -> tuple[Any, Any]:
     """One view of normalised points: shading and inverse depth, (size, size) float32 each, as ``raster.view``.
 
-    A point without a normal is a disc turned to the camera, of the lightest shade. radius: of ``radii``.
+    A point without a normal is a disc turned to the camera, of a middle shade. radius: of ``radii``.
     """
     shade, inverse = np.zeros((2, size, size), dtype=np.float32)
     normals = np.zeros_like(points.positions) if points.normals is None else points.normals
@@ -70,7 +70,7 @@ def _draw(positions: Any, normals: Any, radius: Any, camera: Any, shade: Any, in
         a = camera[0] * nx + camera[1] * ny + camera[2] * nz
         b = camera[3] * nx + camera[4] * ny + camera[5] * nz
         c = camera[6] * nx + camera[7] * ny + camera[8] * nz
-        light = 1.0
+        light = (AMBIENT + 1.0) / 2.0
         if a * a + b * b + c * c > 0.0:
             light = AMBIENT + (1.0 - AMBIENT) * min(abs(a * LIGHT[0] + b * LIGHT[1] + c * LIGHT[2]), 1.0)
         else:
