@@ -11,7 +11,7 @@ from shapewright.references.readers.formats import EXTENSIONS
     ("name", "said"),
     [
         ("a.blend", "a Blender file, which is not read: open it in Blender"),
-        ("a.STP", "STEP, which is not read: export it from a CAD program"),
+        ("a.SLDPRT", "a CAD model, which is not read: export it from a CAD program"),
         ("a.ptx", "a point cloud, which is not read: open it in CloudCompare"),
         ("a.obj.gz", "an archive, which is not read: unpack it"),
         ("a.obj.dvc", "fetch the file with `dvc pull`"),

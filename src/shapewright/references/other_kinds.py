@@ -14,7 +14,6 @@ _UNPACK = "unpack it"
 
 _KINDS = {
     ("a Blender file", _BLENDER): "blend",
-    ("USD", _BLENDER): "usd usda usdc usdz",
     ("Alembic", _BLENDER): "abc",
     ("X3D", _BLENDER): "x3d x3db x3dv",
     ("VRML", _BLENDER): "wrl vrml",
@@ -23,8 +22,7 @@ _KINDS = {
     ("DirectX", _BLENDER): "x",
     ("VRM", "rename it to .glb"): "vrm",
     ("AMF", "save it as 3MF or STL"): "amf",
-    ("STEP", _CAD): "step stp stpz",
-    ("IGES", _CAD): "iges igs",
+    ("compressed STEP", "unpack it"): "stpz",
     ("a CAD model", _CAD): "brep brp fcstd sldprt sldasm ipt iam prt catpart catproduct sat sab x_t x_b jt f3d 3dxml",
     ("OpenSCAD", "render it and export it as STL"): "scad",
     ("IFC", "open it in Blender with Bonsai and export it as GLB"): "ifc",

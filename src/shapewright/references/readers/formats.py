@@ -10,6 +10,7 @@ import numpy as np
 from shapewright.references.errors import UnreadableError
 from shapewright.references.other_kinds import refusal
 from shapewright.references.parts import Parts
+from shapewright.references.readers.cad.step import read_iges, read_step
 from shapewright.references.readers.clouds.cloud import Cloud, usable
 from shapewright.references.readers.clouds.columns import read_pts, read_xyz
 from shapewright.references.readers.clouds.e57 import read_e57
@@ -30,6 +31,7 @@ from shapewright.references.readers.scene_parts import Scene
 from shapewright.references.readers.stl import read_stl
 from shapewright.references.readers.svg import read_svg
 from shapewright.references.readers.threemf.build import read_3mf
+from shapewright.references.readers.usd.scene import read_usd
 from shapewright.shapes import Drawing, Floats, Ints, Mesh, ReferenceShape
 
 _POLYGONS: dict[str, Callable[[bytes], Polygons | Cloud]] = {
@@ -45,6 +47,9 @@ _SCENES: dict[str, Callable[[Path, bytes], Scene]] = {
     ".dae": read_collada,
     ".zae": read_collada,
     ".fbx": read_fbx,
+    **dict.fromkeys((".step", ".stp"), read_step),
+    **dict.fromkeys((".iges", ".igs"), read_iges),
+    **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz"), read_usd),
 }
 _CLOUDS: dict[str, Callable[[bytes], Cloud]] = {
     ".xyz": read_xyz,
@@ -60,7 +65,7 @@ _DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {
     ".svgz": read_svg,
     **dict.fromkeys(PICTURES, read_picture),
 }
-MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF", "DAE", "FBX")
+MESH_FORMATS = ("OBJ", "PLY", "STL", "OFF", "GLB", "glTF", "3MF", "DAE", "FBX", "USD", "STEP", "IGES")
 """Formats of meshes that are read, as people write them."""
 MESHES = (*_POLYGONS, *_SCENES)
 CLOUDS = (*_CLOUDS, *_CLOUD_FILES)

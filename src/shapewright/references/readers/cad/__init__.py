@@ -1,0 +1,1 @@
+"""Exact solids of CAD programs, through cascadio (extra ``cad``), as triangles."""

@@ -1,0 +1,1 @@
+"""USD, through usd-core (extra ``usd``): the triangles that a stage shows."""
