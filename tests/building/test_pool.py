@@ -215,3 +215,20 @@ def test_a_worker_may_use_all_cores_although_it_loads_on_one(tmp_path):
     with Workers(sw.load_procedure(path), 1) as crew:
         (built,) = crew.build([{"size": 0.5}])
     assert built.shape.extent.tolist() == [1, 1, len(os.sched_getaffinity(0))]
+
+
+def test_what_a_procedure_needs_is_found_by_the_path_of_the_script(tmp_path):
+    (tmp_path / "lib").mkdir()
+    (tmp_path / "lib" / "mylib.py").write_text(
+        "def part(w):\n    return [[0, 0, 0], [w, 0, 0], [0, 1, 0]], [[0, 1, 2]]\n"
+    )
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import sys\nfrom pathlib import Path\n"
+        "sys.path.insert(0, str(Path(__file__).parent / 'lib'))\n"
+        "from typing import Annotated\nimport mylib\nimport shapewright as sw\n"
+        "@sw.procedure\ndef mine(w: Annotated[float, sw.Range(1, 2)] = 1.5):\n    return mylib.part(w)\n"
+        "print(sum(b.shape is not None for b in sw.sample(mine, 3, workers=1)))\n"
+    )
+    done = subprocess.run([sys.executable, script], cwd="/", capture_output=True, text=True, check=False)
+    assert done.stdout.strip() == "3", done.stderr

@@ -111,6 +111,15 @@ def test_evaluate_prints_a_row_for_each_parameter(project):
     assert all("height" in variant["parameters"] for variant in found)
 
 
+def test_sample_without_a_shape_fails(project):
+    text = (project / "stool.py").read_text()
+    (project / "number.py").write_text(
+        text + "\n\ndef broken(*_, **__):\n    return 3.0\n\n\nstool.function = broken\n"
+    )
+    run = shapewright("sample", "number.py", "-n", "4", "--out", "none", cwd=project)
+    assert run.returncode != 0 and "could be built" in run.stderr
+
+
 def test_sample_writes_shapes_and_their_parameters(project):
     run = shapewright("sample", "stool.py", "-n", "7", "--out", "shapes", "--format", "ply", "--json", cwd=project)
     assert run.returncode == 0, run.stderr

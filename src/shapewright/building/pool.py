@@ -7,6 +7,7 @@ or hangs, its slice is built again one shape at a time, so that only the shape a
 
 from __future__ import annotations
 
+import pickle
 import queue
 import sys
 import threading
@@ -148,7 +149,8 @@ def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:
 def _payload(procedure: Procedure) -> bytes:
     target = f"{procedure.path}:{procedure.name}" if procedure.path else procedure
     try:
-        return bytes(cloudpickle.dumps((target, list(sys.path))))
+        # What the procedure needs is found by this process's path: a worker needs that before it reads the procedure.
+        return pickle.dumps((list(sys.path), bytes(cloudpickle.dumps(target))))
     except Exception as error:
         raise ProcedureError(
             f"it cannot be sent to the worker processes ({error}); "

@@ -46,8 +46,14 @@ def serve(connection: Connection) -> None:
 
 
 def _received(payload: bytes) -> Procedure:
-    """The procedure. Raises ProcedureError when its file does not load."""
-    target, sys.path[:] = pickle.loads(payload)
+    """The procedure. Raises ProcedureError when its file does not load, or a module that it needs is not found."""
+    sys.path[:], inner = pickle.loads(payload)
+    try:
+        target = pickle.loads(inner)
+    except Exception as error:
+        missing = isinstance(error, ModuleNotFoundError)
+        advice = "; put it in a file of its own and load it with load_procedure" if missing else ""
+        raise ProcedureError(f"a worker process cannot read it: {describe(error)}{advice}") from error
     return load_procedure(target) if isinstance(target, str) else target
 
 

@@ -11,7 +11,7 @@ from rich.markup import escape
 
 from shapewright.cli.console import err, interruptible, out, print_json
 from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers
-from shapewright.procedures import load_procedure
+from shapewright.procedures import ProcedureError, load_procedure
 from shapewright.settings import Settings
 from shapewright.shapes.files import Format
 from shapewright.storage import printable
@@ -40,6 +40,8 @@ def sample(
         samples = write_samples(
             author, count, folder, format, seed, workers, lambda done, total: listen(Progress("sample", done, total))
         )
+    if not samples.shapes:
+        raise ProcedureError(f"none of {count} shapes could be built: {samples.failures}")
     if samples.failures:
         err.print(f"[yellow]failed:[/] {escape(samples.failures)}", highlight=False)
     if json:

@@ -16,6 +16,7 @@ from shapewright.judging.judge import Judge
 from shapewright.parameters import to_record
 from shapewright.procedures import Procedure
 from shapewright.progress import Stages
+from shapewright.runs.helpers import helpers_of
 from shapewright.runs.iteration import Iteration, draw_pictures
 from shapewright.runs.result import Result
 from shapewright.storage import printable
@@ -85,6 +86,7 @@ def recorded(
             "parameters": [to_record(parameter) for parameter in procedure.space],
         },
         source=procedure.source,
+        helpers=helpers_of(procedure),
         collection={
             "source": references.source,
             "origins": list(references.origins),

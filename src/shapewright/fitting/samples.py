@@ -85,7 +85,7 @@ def write_samples(
         with Workers(procedure, workers) as crew, ThreadPoolExecutor(workers or cores()) as pool:
             while len(rows) < len(vectors):
                 chunk = vectors[len(rows) : len(rows) + max(_CHUNK, len(rows) // 8)]
-                builds = crew.build(chunk)
+                builds = crew.build(chunk, give_up=not rows)
                 failed += [build for build in builds if build.failure]
                 names = [f"{procedure.name}-{i:05d}" for i in range(len(rows), len(rows) + len(chunk))]
                 rows += pool.map(lambda name, build: _write_shape(folder, name, build, format, record), names, builds)

@@ -16,6 +16,9 @@ from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.places import Place, describe, place_of
 from shapewright.procedures.procedure import Procedure
 
+_HELPERS = "__shapewright_helpers__"
+"""The name under which an executed file has the files that it imported from its own folder."""
+
 
 def load_procedure(source: str | Path) -> Procedure:
     """The one procedure of a Python file, or of a module that can be imported.
@@ -45,6 +48,7 @@ def load_procedure(source: str | Path) -> Procedure:
     else:
         (chosen,) = found.values()
     chosen.path = path
+    chosen.helpers = tuple(vars(module).get(_HELPERS, ()))
     return chosen
 
 
@@ -120,7 +124,8 @@ def executed(path: Path) -> ModuleType:
         sys.path.remove(folder)
         if folder not in sys.path:
             sys.path.append(folder)
-        _forget_siblings(path.parent, before)
+        files = _forget_siblings(path.parent, before)
+        module.__dict__[_HELPERS] = [file for file in files if file != path]
     return module
 
 
@@ -141,9 +146,15 @@ def _hidden_helper(error: Exception, folder: Path) -> str:
     return f"; {folder / name}.py has the name of one of Python's modules: rename it" if hidden else ""
 
 
-def _forget_siblings(folder: Path, before: set[str]) -> None:
-    """Drop the author's own helper modules, so that another folder's of the same name, or an edit, is read anew."""
+def _forget_siblings(folder: Path, before: set[str]) -> list[Path]:
+    """Drop the author's own helper modules, so that another folder's of the same name, or an edit, is read anew.
+
+    Returns their files.
+    """
+    files = []
     for name in set(sys.modules) - before:
         file = getattr(sys.modules[name], "__file__", None)
         if file and Path(file).is_relative_to(folder) and "site-packages" not in file:
             del sys.modules[name]
+            files.append(Path(file))
+    return sorted(files)

@@ -26,6 +26,7 @@ class Procedure:
         name: the function's.
         signature: how the function is called with values of the space.
         path: the author's file, if it was loaded from one.
+        helpers: files that it imported from its own folder.
     """
 
     def __init__(self, function: Callable[..., Any], names: Mapping[str, Any] | None = None) -> None:
@@ -35,6 +36,7 @@ class Procedure:
         self.name = name_of(self.function)
         self.signature = signature_of(self.function, names)
         self.path: Path | None = None
+        self.helpers: tuple[Path, ...] = ()
 
     @property
     def space(self) -> ParameterSpace:
