@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 import boxes
-from shapewright.references import Collection, CollectionError
+from shapewright.processes import Limits
+from shapewright.references import Collection, CollectionError, archives
 from shapewright.references.archives import _cache, is_archive, stem, unpacked
 from shapewright.references.errors import UnreadableError
 from shapewright.references.sources import find
@@ -154,3 +155,18 @@ def test_one_with_a_password_says_so(tmp_path):
     path.write_bytes(bytes(data))
     with pytest.raises(UnreadableError, match="with a password"):
         unpacked(path)
+
+
+def test_a_tar_whose_header_asks_for_all_memory_is_refused_and_nothing_else_is_lost(tmp_path, monkeypatch):
+    """A header of the tar format may be of any length, and is read whole."""
+    monkeypatch.setattr(archives, "_LIMITS", Limits(seconds=30.0, memory_mb=64))
+    header = tarfile.TarInfo("pax")
+    header.type, header.size = tarfile.XHDTYPE, 512 * 2**20
+    with tarfile.open(tmp_path / "bomb.tar.gz", "w:gz", compresslevel=1) as archive:
+        archive.fileobj.write(header.tobuf(tarfile.USTAR_FORMAT))
+        for _ in range(512):
+            archive.fileobj.write(bytes(2**20))
+    (tmp_path / "a.obj").write_bytes(BOX)
+    refs = Collection.load(tmp_path)
+    assert refs.names == ("a",)
+    assert list(refs.skipped.values()) == ["unpacking it needed more than 64 MB of memory"]

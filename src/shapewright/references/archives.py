@@ -16,8 +16,10 @@ import zipfile
 from collections.abc import Callable, Iterator
 from functools import cache, partial
 from pathlib import Path, PurePosixPath
-from typing import IO, TypeAlias
+from typing import IO, NamedTuple, TypeAlias
 
+from shapewright.processes import Limits, Loss
+from shapewright.processes.calls import Calls
 from shapewright.references.errors import UnreadableError
 from shapewright.references.other_kinds import refusal
 from shapewright.references.readers.formats import EXTENSIONS
@@ -31,6 +33,17 @@ _GROWTH, _SMALL, _MOST = 100, 64 * 2**20, 4 * 2**30
 in text shrink to a tenth at most; a bomb grows a thousand times (measured on zeros)."""
 _MEMBERS = 100_000
 _BLOCK = 2**20
+_HERE = 4 * 2**20  # bytes of a ZIP that is unpacked in this process
+_LIMITS = Limits(seconds=600.0, memory_mb=1024)
+"""4 GiB of bzip2, the slowest, take 300 s."""
+
+
+class _Job(NamedTuple):
+    """An archive, the folder to fill, and how many bytes may come of it."""
+
+    path: Path
+    folder: Path
+    most: int
 
 
 def is_archive(path: Path) -> bool:
@@ -56,15 +69,40 @@ def unpacked(path: Path) -> Path:
             for older in _cache().glob(f"{where}-*"):
                 shutil.rmtree(older, ignore_errors=True)
             with whole_folder(folder) as growing:
-                _unpack(path, growing, min(_MOST, max(_SMALL, _GROWTH * state.st_size)))
-    except UnreadableError:
-        raise
+                _fill(_Job(path, growing, min(_MOST, max(_SMALL, _GROWTH * state.st_size))), state.st_size)
     except OSError as error:
         if not folder.is_dir():  # else another process was faster
             raise UnreadableError(f"an archive that cannot be unpacked: {error.strerror or error}") from error
-    except Exception as error:  # a broken archive can make a decoder fail in any way
-        raise UnreadableError(f"a broken archive: {error or type(error).__name__}") from error
     return folder
+
+
+def _fill(job: _Job, size: int) -> None:
+    """Unpack an archive of ``size`` bytes, in a process of its own unless it is a small ZIP. Raises UnreadableError.
+
+    A tar file may hold headers of any length, and what packs it may ask for any memory.
+    """
+    if size <= _HERE and job.path.suffix.lower() == ".zip":
+        why: str | Loss | None = _unpacked(job)
+    else:
+        with Calls(_unpacked, 1) as calls:
+            (why,) = calls.results([(job, _LIMITS)])
+    if why:
+        raise UnreadableError(f"unpacking {why.message}" if isinstance(why, Loss) else why)
+
+
+def _unpacked(job: _Job) -> str:
+    """Why an archive cannot be unpacked; empty where it was."""
+    try:
+        _unpack(job.path, job.folder, job.most)
+    except UnreadableError as error:
+        return str(error)
+    except MemoryError:
+        raise
+    except OSError as error:
+        return f"an archive that cannot be unpacked: {error.strerror or error}"
+    except Exception as error:  # noqa: BLE001 - a broken archive can make a decoder fail in any way
+        return f"a broken archive: {error or type(error).__name__}"
+    return ""
 
 
 def _digest(value: object) -> str:
