@@ -19,7 +19,7 @@ from shapewright.threads import cores
 _PLAIN = frozenset([".obj", ".off", ".ply", ".stl", ".xyz", ".xyzn", ".xyzrgb", ".pts"])
 """Formats whose readers use Python and numpy, and no other library but manifold3d to cut polygons: the memory and the
 time that they take are in proportion to the file."""
-_SMALL, _IN_ALL = 4 * 2**20, 16 * 2**20
+_SMALL, _IN_ALL = 2 * 2**20, 16 * 2**20
 """Bytes of a plain file that is read here, and of all that are. Text takes .1 s of CPU a megabyte."""
 _SECONDS = 60.0
 """That a file may take. The largest text that fits in the memory, 1.5 GB of STL, takes 50."""
