@@ -10,6 +10,7 @@ from benches import bench, overlap
 from shapewright.references import Collection
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.svg import read_svg
+from shapewright.references.readers.svg.fonts import faces
 from shapewright.shapes import Drawing
 from shapewright.shapes.files import svg
 
@@ -82,11 +83,14 @@ class TestSvg:
         areas = [read_svg(document(line.format(cap)))[0].geometry.area for cap in ("butt", "round", "square")]
         assert areas == pytest.approx([240, 240 + np.pi * 9, 276], rel=0.01)
 
-    def test_text_is_left_out_with_a_note(self):
-        assert read_svg(document(TOP + "<text>no</text>"))[1] == ("1 x text left out",)
+    def test_text_without_a_font_is_left_out_with_a_note(self, monkeypatch):
+        monkeypatch.setattr(faces, "machine_faces", lambda: ())
+        note = "2 x letter of the font serif, which is not on this machine, left out"
+        assert read_svg(document(TOP + "<text>no</text>"))[1] == (note,)
 
     @pytest.mark.parametrize("content", ["", '<rect width="9" height="9" fill="white"/>', "<text>no</text>"])
-    def test_nothing_dark(self, content):
+    def test_nothing_dark(self, monkeypatch, content):
+        monkeypatch.setattr(faces, "machine_faces", lambda: ())
         with pytest.raises(UnreadableError, match="nothing in it is dark"):
             read_svg(document(content))
 

@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from shapewright.references.errors import UnreadableError
-from shapewright.references.readers.svg import coordinates, figures, resources
+from shapewright.references.readers.svg import coordinates, figures, lettering, resources
 from shapewright.references.readers.svg.coordinates import Viewport, inverse, matrix
 from shapewright.references.readers.svg.document import Document, Element, link, name
 from shapewright.references.readers.svg.figures import SHAPES, Place
+from shapewright.references.readers.svg.lines.paths import Path
 from shapewright.references.readers.svg.painting import layers
 from shapewright.references.readers.svg.painting.layers import Item, Layer
 from shapewright.references.readers.svg.resources import Resources
@@ -21,7 +22,7 @@ from shapewright.references.readers.svg.styles import Cascade
 _GROUPS = {"g", "a"}
 _FRAMES = {"svg", "symbol"}
 _MARKED = {"path", "line", "polyline", "polygon"}
-_LEFT_OUT = {"text", "image", "foreignObject"}
+_LEFT_OUT = {"image", "foreignObject"}
 _SILENT = {
     "title",
     "desc",
@@ -135,6 +136,8 @@ class Scene:
         if kind in SHAPES:
             shape = self._shape(element, here)
             return shape if here.visible else layers.unseen(shape)
+        if kind == "text":
+            return self._text(element, here) if here.visible else ()
         if kind in _FRAMES:
             return self.framed(element, here, size or (None, None))
         if kind == "use":
@@ -181,10 +184,24 @@ class Scene:
         return target, replace(here, matrix=here.matrix @ matrix(e=x, f=y), shown=shown)
 
     def _shape(self, element: Element, here: Place) -> tuple[Item, ...]:
-        """What a shape paints: fill, stroke and markers, in the order that ``paint-order`` tells."""
+        """What a shape paints."""
         found = figures.path(element, here, self.notes)
         if found is None:
             return ()
+        return self._painted(element, found, here)
+
+    def _text(self, element: Element, here: Place) -> tuple[Item, ...]:
+        """What a text paints, style after style."""
+        found = lettering.runs(element, here, self.cascade.style, self.cascade.faces, self.notes)
+        return tuple(
+            item
+            for run in found
+            if len(run.outline.cubics) and run.place.visible
+            for item in self._painted(run.element, run.outline, run.place)
+        )
+
+    def _painted(self, element: Element, found: Path, here: Place) -> tuple[Item, ...]:
+        """What an outline paints: fill, stroke and markers, in the order that ``paint-order`` tells."""
         kind, box, style = name(element), found.bounds(), here.style
         painted: dict[str, tuple[Item, ...]] = {}
         inside = figures.filled(found, here, "fill-rule") if kind != "line" else None

@@ -14,6 +14,8 @@ from tinycss2 import color4
 
 from shapewright.references.readers.svg.coordinates import ROOT_FONT, Viewport
 from shapewright.references.readers.svg.document import Document, Element
+from shapewright.references.readers.svg.fonts.embedded import faces_of
+from shapewright.references.readers.svg.fonts.faces import Face
 
 Style: TypeAlias = dict[str, str]
 """The computed value of each property that an element has."""
@@ -36,6 +38,14 @@ _INHERITED = {
     "marker-end",
     "visibility",
     "font-size",
+    "font-family",
+    "font-weight",
+    "font-style",
+    "text-anchor",
+    "letter-spacing",
+    "word-spacing",
+    "writing-mode",
+    "dominant-baseline",
     "paint-order",
     "color-interpolation",
 }
@@ -80,10 +90,12 @@ class Cascade:
 
     Attributes:
         notes: how often each thing was met that is not understood.
+        faces: the fonts that the file brings along.
     """
 
     def __init__(self, document: Document) -> None:
         self.notes: Counter[str] = Counter()
+        self.faces: list[Face] = []
         self._matched: dict[Element, list[tuple[str, str, bool]]] = {}
         matcher = cssselect2.Matcher()
         for sheet in document.styles:
@@ -154,6 +166,8 @@ class Cascade:
             elif rule.type == "at-rule" and rule.lower_at_keyword == "media":
                 if self._applies(tinycss2.serialize(rule.prelude)):
                     self._add(matcher, tinycss2.parse_rule_list(rule.content, True, True))
+            elif rule.type == "at-rule" and rule.lower_at_keyword == "font-face":
+                self.faces += faces_of(rule)
             elif rule.type == "at-rule" and rule.lower_at_keyword == "import":
                 self.notes["style sheet of another file"] += 1
             elif rule.type == "at-rule" and rule.lower_at_keyword in ("supports", "layer", "container", "scope"):
@@ -229,9 +243,16 @@ def _longhands(key: str, value: str) -> Iterator[tuple[str, str]]:
     if key == "marker":
         yield from ((f"marker-{place}", value) for place in ("start", "mid", "end"))
     elif key == "font":
-        size = re.search(r"(?<![\w.])([\d.]+(?:px|pt|em|ex|mm|cm|in|pc|rem|%))", value)
+        size = re.search(r"(?<![\w.])([\d.]+(?:px|pt|em|ex|mm|cm|in|pc|rem|%))(?:\s*/\s*[\w.%]+)?\s*(.*)", value)
         if size:
+            before = value[: size.start()].split()
             yield "font-size", size[1]
+            yield "font-family", size[2]
+            yield "font-style", next((word for word in before if word in ("italic", "oblique")), "normal")
+            yield (
+                "font-weight",
+                next((word for word in before if word.startswith("bold") or word.isdecimal()), "normal"),
+            )
     else:
         yield key, value
 

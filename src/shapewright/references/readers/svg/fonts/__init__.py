@@ -1,0 +1,1 @@
+"""Fonts, by whose outlines text of SVG is drawn."""
