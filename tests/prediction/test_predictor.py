@@ -120,3 +120,17 @@ def test_a_procedure_that_draws_cannot_be_trained_on_meshes():
     unusable = "only 0 of 12 sampled shapes can be used: it builds drawings"
     with pytest.raises(sw.ProcedureError, match=unusable), Workers(square, 1) as crew:
         shapes_of(crew.build(square.space.sample(12), give_up=True), sw.Mesh)
+
+
+def test_a_predictor_of_sized_shapes_tells_sizes_apart_and_keeps_it_when_saved(tmp_path):
+    @sw.procedure(size="given")
+    def cube(side: Annotated[float, sw.Range(10.0, 100.0)] = 50.0, flat: bool = False):
+        return box((side, side / 4 if flat else side, side))
+
+    predictor = sw.train(cube, sw.Settings(seed=2, samples=200, epochs=25, image_size=32, workers=2))
+    predictor.save(tmp_path / "predictor.pt")
+    for one in (predictor, sw.Predictor.load(tmp_path / "predictor.pt")):
+        shapes = [cube(side=20.0), cube(side=80.0)]
+        small, large = one.predict(shapes)
+        assert small["side"] == pytest.approx(20.0, abs=6.0) and large["side"] == pytest.approx(80.0, abs=8.0)
+        assert one.predict([shape.normalised() for shape in shapes], [20.0, 80.0]) == [small, large]

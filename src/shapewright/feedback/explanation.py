@@ -17,6 +17,7 @@ from shapewright.feedback.surfaces.areas import areas
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.feedback.trials.tried import Tried
+from shapewright.fitting.start import for_procedure
 from shapewright.judging.judge import Judge
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
@@ -28,10 +29,6 @@ from shapewright.runs.iteration import Iteration
 from shapewright.shapes import Drawing, Mesh, Points
 from shapewright.threads import in_threads
 
-IN_VIEWS = (
-    "the references are pictures of objects, of which nobody knows all sides: they cannot be explained yet. The report "
-    "marks what is missing and what is too much in each picture"
-)
 _OF_CAUSES = {"describe": 0.04, "differences": 0.06, "causes": 0.9}
 _SHARES = {"describe": 0.03, "differences": 0.04, "causes": 0.53, "hypotheses": 0.1, "trials": 0.3}
 """Of each stage in the time that explaining takes, without suggestions and with them: estimates, good enough to say
@@ -77,16 +74,14 @@ def explain(
         rules: the library that suggestions draw on; by default all of ``rules.library.library``.
 
     Raises:
-        RunError: the references are to be loaded, but were made in memory or are not where they were; or they are
-            pictures of objects; or all of them are points. What is said goes by surfaces, and those of points are not
-            known. Of a collection with meshes the meshes are explained.
+        RunError: the references are to be loaded, but were made in memory or are not where they were; or all of them
+            are points. What is said goes by surfaces, and those of points are not known. Of a collection with meshes
+            the meshes are explained.
         KeyError: the collection lacks a reference of the iteration.
     """
     references = references or references_of(iteration)
-    if iteration.collection.get("pictures") == "views" or references.in_views:
-        raise RunError(IN_VIEWS)
     settings = replace(iteration.settings, workers=workers or iteration.settings.workers)
-    collection = _collection(references, iteration)
+    collection = _collection(for_procedure(references, procedure), iteration)
     if all(isinstance(reference.shape, Points) for reference in collection):
         raise RunError(_POINTS)
     stages = Stages(progress, _SHARES if suggest and references.kind is Mesh else _OF_CAUSES)

@@ -89,8 +89,10 @@ def _refined(
     """The metrics after refinement, on the first ``count`` held-out rows; measures and grades of these replicas."""
     held_out = lesson.held_out.take(np.arange(min(count, len(lesson.held_out))))
     shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
-    judge = Judge.of(shapes, settings)
-    prediction = lesson.predictor.infer(held_out.shapes)
+    sides: list[float | None] = [None] * len(shapes) if held_out.extents is None else held_out.extents.tolist()
+    sized = tuple(replace(each, extent=side) for each, side in zip(shapes, sides, strict=True))
+    judge = Judge.of(replace(shapes, references=sized), settings)
+    prediction = lesson.predictor.infer(held_out.shapes, sides)
     _, fields = judge.nearest(crew.build(prediction.decode()))
     stages.begin("refine", 1)
     criterion = judge.criterion(range(len(fields)), fields)

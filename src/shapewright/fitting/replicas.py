@@ -91,7 +91,7 @@ def replicate(
     settings, known = judge.settings, [build.parameters if build else None for build in replicas.builds]
     rows = np.flatnonzero(~replicas.near(judge))
     stages.begin("predict", len(known))
-    prediction = lesson.predictor.infer([reference.shape for reference in judge.references])
+    prediction = lesson.predictor.infer([r.shape for r in judge.references], judge.references.extents)
     stages.begin("replicate", 1)
     replicas = replicas.tried(prediction.decode(), crew, judge)
     vectors = replicas.parameters

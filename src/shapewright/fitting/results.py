@@ -51,10 +51,9 @@ def judged(
             error=_error(build, its.distance),
             missing=seen.missing,
             surplus=seen.surplus,
-            places=places,
         )
-        for reference, build, its, seen, grade, same, places in zip(
-            judge.references, builds, measures, replicas.evidence, grades, compatible, judge.places(builds), strict=True
+        for reference, build, its, seen, grade, same in zip(
+            judge.references, builds, measures, replicas.evidence, grades, compatible, strict=True
         )
     )
     return results, groups
@@ -85,6 +84,7 @@ def recorded(
             "path": str(procedure.path) if procedure.path else None,
             "digest": procedure.digest,
             "parameters": [to_record(parameter) for parameter in procedure.space],
+            **procedure.facts.stated,
         },
         source=procedure.source,
         helpers=helpers_of(procedure),
@@ -93,7 +93,6 @@ def recorded(
             "origins": list(references.origins),
             "up": references.up,
             "front": references.front,
-            "pictures": references.pictures,
             "count": len(references),
             "skipped": {printable(path): reason for path, reason in references.skipped.items()},
         },

@@ -13,13 +13,14 @@ import json
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from shapewright.building import Build, Workers, describe_failures
 from shapewright.parameters import Parameters
-from shapewright.procedures import Procedure
+from shapewright.procedures import Facts, Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.runs.folder import RunError, check_free
 from shapewright.shapes import Drawing, Mesh
@@ -78,6 +79,7 @@ def write_samples(
     """
     vectors = procedure.space.sample(count, seed=seed)
     record = _record(procedure, format, seed)
+    write = partial(_write_shape, folder, format=format, record=record, facts=procedure.facts)
     header = ["path", *procedure.space.names, "sound", *_MEASURES, "failure"]
     try:
         rows = _resume(folder, record, vectors)
@@ -88,7 +90,7 @@ def write_samples(
                 builds = crew.build(chunk, give_up=not rows)
                 failed += [build for build in builds if build.failure]
                 names = [f"{procedure.name}-{i:05d}" for i in range(len(rows), len(rows) + len(chunk))]
-                rows += pool.map(lambda name, build: _write_shape(folder, name, build, format, record), names, builds)
+                rows += pool.map(write, names, builds)
                 table = io.StringIO(newline="")
                 csv.writer(table).writerows([header, *rows])
                 write_file(folder / MANIFEST, table.getvalue())
@@ -139,15 +141,18 @@ def _resume(folder: Path, record: dict[str, Any], vectors: Sequence[Parameters])
     return rows
 
 
-def _write_shape(folder: Path, name: str, build: Build, format: Format, record: dict[str, Any]) -> list[str]:
-    """Write one shape; returns its row of the manifest."""
+def _write_shape(
+    folder: Path, name: str, build: Build, format: Format, record: dict[str, Any], facts: Facts
+) -> list[str]:
+    """Write one shape, in the procedure's axes but for GLB, which is Y up; returns its row of the manifest."""
     values, soundness = [str(value) for value in build.parameters.values()], [""] * (1 + len(_MEASURES))
     if build.shape is None:
         return ["", *values, *soundness, str(build.failure)]
     extras = {key: record[key] for key in ("procedure", "version", "seed")} | {"parameters": dict(build.parameters)}
+    shape = build.shape if format == "glb" else facts.laid(build.shape)
     path = f"{name}.{'svg' if isinstance(build.shape, Drawing) else format}"
     with whole_file(folder / path) as partial:
-        partial.write_bytes(encode(build.shape, format, extras))
+        partial.write_bytes(encode(shape, format, extras | facts.stated, facts.metres))
     if isinstance(build.shape, Mesh):
         state = build.shape.soundness()
         soundness = [str(state.sound), *(str(getattr(state, name)) for name in _MEASURES)]

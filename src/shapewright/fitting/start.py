@@ -9,9 +9,20 @@ from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.lookup import nearest
 from shapewright.prediction.predictor import Predictor
+from shapewright.procedures import Procedure
 from shapewright.references import Collection
 from shapewright.rendering.raster import render
 from shapewright.runs.iteration import Iteration
+
+
+def for_procedure(references: Collection, procedure: Procedure) -> Collection:
+    """The references as the procedure's facts have them.
+
+    They stand in its axes, where nobody says which theirs are. Where sizes count they know those of their replicas.
+    """
+    facts = procedure.facts
+    references = references if facts.up == "y" else references.standing(facts.up)
+    return references.sized(facts.metres) if facts.size == "given" else references
 
 
 @dataclass(frozen=True, eq=False)

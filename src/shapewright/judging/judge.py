@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,21 +20,19 @@ from shapewright.judging.paper import Metric
 from shapewright.judging.scans.points_target import PointsTarget
 from shapewright.judging.target import Measures, Target
 from shapewright.judging.verdict import Evidence, Grade, Standing, Verdict, apart_of
-from shapewright.judging.views.view_target import ViewTarget
 from shapewright.references import Collection
-from shapewright.search.objective import Criterion, Measure, measure_of
+from shapewright.search.objective import Criterion, Measure, Objective, measure_of
+from shapewright.search.sizes import SizedObjective, likeness, parts_with_size
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Floats, Ints, Mesh, Points, ReferenceShape, Shape, Views
+from shapewright.shapes import Drawing, Floats, Ints, Mesh, Points, ReferenceShape, Shape
 from shapewright.shapes.conversion import as_reference, as_shape
 from shapewright.threads import in_threads
 
 Rows = Sequence[int] | Ints  # indices of references in their collection
 
 
-def target_of(shape: ReferenceShape, settings: Settings, cache: Path | None = None, most: int = 1) -> Target:
-    """What replicas are measured against. cache: a folder that keeps descriptors. most: see ``ViewTarget``."""
-    if isinstance(shape, Views):
-        return ViewTarget(shape, settings, most)
+def target_of(shape: ReferenceShape, settings: Settings, cache: Path | None = None) -> Target:
+    """What replicas are measured against; cache: a folder that keeps descriptors of meshes."""
     if isinstance(shape, Points):
         return PointsTarget(shape, settings)
     return MeshTarget(shape, settings, cache) if isinstance(shape, Mesh) else DrawingTarget(shape, settings)
@@ -44,9 +42,8 @@ def fidelity(replica: Any, reference: Any, settings: Settings | None = None) -> 
     """How likely a person calls a replica the same as its reference, and where the two differ.
 
     Both are what a procedure may return, and are compared as they stand, after normalisation: neither is turned or
-    mirrored. The reference may be points, too, or views of an object, which are compared from the cameras that suit
-    the replica best. settings: the cuts of the grades, and the judge that grades. Raises TypeError for a drawing with
-    another kind, ValueError for a shape that no picture shows.
+    mirrored. The reference may be points, too. settings: the cuts of the grades, and the judge that grades. Raises
+    TypeError for a drawing with another kind, ValueError for a shape that no picture shows.
     """
     replica, reference = as_shape(replica), as_reference(reference)
     if isinstance(replica, Drawing) != isinstance(reference, Drawing):
@@ -70,9 +67,7 @@ class Judge:
     @classmethod
     def of(cls, references: Collection, settings: Settings, cache: Path | None = None) -> Judge:
         """Describe the references; cache: a folder that keeps the descriptors of meshes."""
-        shapes = [reference.shape for reference in references]
-        most = max((len(shape) for shape in shapes if isinstance(shape, Views)), default=1)
-        targets = tuple(target_of(shape, settings, cache, most) for shape in shapes)
+        targets = tuple(target_of(reference.shape, settings, cache) for reference in references)
         in_threads(lambda target: target.visible, targets, settings.workers)
         return cls(references, targets, settings)
 
@@ -112,27 +107,21 @@ class Judge:
     def fidelities(self, shapes: Sequence[Shape | None], rows: Rows | None = None) -> list[float]:
         """The fidelity of each shape to its reference, those of ``rows`` or all, without regions; NaN for none."""
         pairs = zip(self._targets(rows), shapes, strict=True)
-        return in_threads(lambda pair: pair[0].fidelity(pair[1]), pairs, self.settings.workers)
+        found = in_threads(lambda pair: pair[0].fidelity(pair[1]), pairs, self.settings.workers)
+        return [value * same for value, same in zip(found, self._likenesses(shapes, rows), strict=True)]
 
     def evidence(self, builds: Sequence[Build], rows: Rows | None = None) -> list[Evidence]:
         """The fidelity of each build to its reference, those of ``rows`` or all, and where the two differ."""
         pairs = zip(self._targets(rows), builds, strict=True)
-        return in_threads(lambda pair: pair[0].evidence(pair[1].shape), pairs, self.settings.workers)
-
-    def places(self, builds: Sequence[Build]) -> list[tuple[tuple[float, ...], ...]]:
-        """From where each build is seen in the views of its reference, see ``Result``; nothing for other references."""
-
-        def place(pair: tuple[Target, Build]) -> tuple[tuple[float, ...], ...]:
-            target, build = pair
-            found = target.in_view(build.shape) if isinstance(target, ViewTarget) else None
-            return tuple(map(tuple, found.places.tolist())) if found else ()
-
-        return in_threads(place, zip(self.targets, builds, strict=True), self.settings.workers)
+        found = in_threads(lambda pair: pair[0].evidence(pair[1].shape), pairs, self.settings.workers)
+        same = self._likenesses([build.shape for build in builds], rows)
+        return [replace(each, value=each.value * likely) for each, likely in zip(found, same, strict=True)]
 
     def measures(
         self, builds: Sequence[Build], distances: Floats, evidence: Sequence[Evidence] | None = None
     ) -> list[Measures]:
         """All that can be measured of one build for each reference. distances, (N,), and evidence are known already."""
+        evidence = self.evidence(builds) if evidence is None and any(self.references.extents) else evidence
         known = [None] * len(builds) if evidence is None else [each.value for each in evidence]
         each = zip(self.targets, builds, distances.tolist(), known, strict=True)
         return in_threads(lambda one: one[0].measures(one[1].shape, *one[2:]), each, self.settings.workers)
@@ -147,14 +136,19 @@ class Judge:
         fields: the light field to go by for each, the first by default.
         """
         pairs = zip(self._targets(rows), np.zeros(len(rows), int) if fields is None else fields, strict=True)
-        objectives = in_threads(lambda pair: pair[0].objective(int(pair[1])), pairs, self.settings.workers)
+        forms = in_threads(lambda pair: pair[0].objective(int(pair[1])), pairs, self.settings.workers)
+        objectives: list[Objective | None] = [
+            SizedObjective(form, extent, self.targets[0].parts) if form and extent else form
+            for form, extent in zip(forms, self._extents(rows), strict=True)
+        ]
         return measure_of(objectives, self.settings.workers)
 
     def criterion(self, rows: Rows, fields: Rows | None = None) -> Criterion:
         """What a search for some references makes small, and how far; fields: as for ``measure``."""
         target = self.targets[0]
         measure = self.measure(rows, fields)
-        return Criterion(measure, target.parts, target.goal, target.enough, target.surprise_cost)
+        parts = parts_with_size(target.parts) if any(self.references.extents) else target.parts
+        return Criterion(measure, parts, target.goal, target.enough, target.surprise_cost)
 
     def compatible(self, measures: Sequence[Measures]) -> NDArray[np.bool_]:
         """Which replicas count as the same as their references by the paper's measure, (N,)."""
@@ -176,11 +170,18 @@ class Judge:
         names = [self.references.names[i] for i in rows]
         left = None
         if replicas is not None and rows and self.settings.judge != "paper" and not self.settings.cut_absolute:
-            shapes = [(self.targets[i].shape, replicas[i]) for i in rows]
-            pairs_left = [(shape, replica) for shape, replica in shapes if isinstance(shape, Mesh | Drawing)]
-            found = in_threads(lambda pair: remainder(*pair), pairs_left, self.settings.workers)
-            left = np.stack(found) if found else None
+            pairs_left = [(self.targets[i].shape, replicas[i]) for i in rows]
+            left = np.stack(in_threads(lambda pair: remainder(*pair), pairs_left, self.settings.workers))
         return type(self.targets[0]).groups(names, self._targets(rows), self.settings, left)
+
+    def _likenesses(self, shapes: Sequence[Shape | None], rows: Rows | None) -> list[float]:
+        """How like the sizes of shapes are to those that they are to have: 1 where proportions count alone."""
+        pairs = zip(shapes, self._extents(rows), strict=True)
+        return [likeness(shape, extent) if extent else 1.0 for shape, extent in pairs]
+
+    def _extents(self, rows: Rows | None) -> Sequence[float | None]:
+        extents = self.references.extents
+        return extents if rows is None else [extents[int(row)] for row in rows]
 
     def _targets(self, rows: Rows | None) -> Sequence[Target]:
         return self.targets if rows is None else [self.targets[int(row)] for row in rows]

@@ -26,6 +26,7 @@ class Dataset:
     images: NDArray[np.uint8]  # (N, C, 2, S, S) uint8
     shapes: list[ReferenceShape]  # N, normalised, all meshes or scans of them, or all drawings
     cameras: tuple[Camera, ...]  # C, that took the images
+    extents: NDArray[np.float32] | None = None  # (N,), longest sides in the procedure's unit; None: proportions alone
 
     def __len__(self) -> int:
         return len(self.parameters)
@@ -48,6 +49,7 @@ class Dataset:
             active=self.active[indices],
             images=self.images[indices],
             shapes=[self.shapes[i] for i in indices],
+            extents=None if self.extents is None else self.extents[indices],
         )
 
     def seen_by(self, cameras: Sequence[Camera], threads: int | None = None) -> Dataset:
@@ -64,7 +66,7 @@ def shapes_of(builds: Sequence[Build], kind: type[Shape]) -> tuple[list[Build], 
     if len(good) < min(10, len(builds)):
         built, wanted = ("drawings", "meshes") if kind is Mesh else ("meshes", "drawings")
         other = any(build.shape is not None and not isinstance(build.shape, kind) for build in builds)
-        why = f"it builds {built}, and these references need {wanted}" if other else describe_failures(builds)
+        why = f"it builds {built}, and references are {wanted}" if other else describe_failures(builds)
         message = f"only {len(good)} of {len(builds)} sampled shapes can be used: {why}"
         raise ProcedureError(message, None if other else commonest_place(builds), summary=True)
     return good, [build.shape.normalised() for build in good if build.shape is not None]
@@ -77,16 +79,14 @@ def make_dataset(
     cameras: Sequence[Camera] = THREE_VIEWS,
     size: int = 64,
     threads: int | None = None,
+    extents: Sequence[float] | None = None,
 ) -> Dataset:
     """Render normalised shapes from every camera and encode their parameters."""
-    images = render(shapes, cameras, size, threads=threads)
-    return Dataset(list(parameters), *encoded(space, parameters), images, list(shapes), tuple(cameras))
-
-
-def encoded(space: ParameterSpace, parameters: Sequence[Parameters]) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """(N, P) each: the targets of vectors, and whether each parameter matters there."""
     active = np.array([[name in set(space.active(values)) for name in space.names] for values in parameters])
-    return np.array([space.encode(values) for values in parameters], dtype=np.float32), active
+    targets = np.array([space.encode(values) for values in parameters], dtype=np.float32)
+    images = render(shapes, cameras, size, threads=threads)
+    sizes = None if extents is None else np.array(extents, dtype=np.float32)
+    return Dataset(list(parameters), targets, active, images, list(shapes), tuple(cameras), sizes)
 
 
 def join(parts: Sequence[Dataset]) -> Dataset:
@@ -98,6 +98,7 @@ def join(parts: Sequence[Dataset]) -> Dataset:
         active=np.concatenate([part.active for part in parts]),
         images=np.concatenate([part.images for part in parts]),
         shapes=[shape for part in parts for shape in part.shapes],
+        extents=None if any(p.extents is None for p in parts) else np.concatenate([p.extents for p in parts]),
     )
 
 

@@ -93,3 +93,31 @@ def _numbers(features: Tensor, mlps: Sequence[nn.Sequential]) -> Tensor:
     """(B, M): the answers of MLPs that give one number each."""
     weight, bias = _joined([_layer(mlp, -1) for mlp in mlps])
     return (_hidden(features, mlps) * weight).sum(dim=2) + bias
+
+
+class SizeInput(nn.Module):
+    """The size of a shape as one more feature: the logarithm of its longest side, standardised as in training."""
+
+    mean_and_spread: Tensor
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.register_buffer("mean_and_spread", torch.tensor([0.0, 1.0]))
+
+    def learn(self, extents: Tensor) -> None:
+        """Take the mean and the spread of the logarithms of these sides (N,)."""
+        logs = extents.log()
+        self.mean_and_spread = torch.stack([logs.mean(), logs.std(correction=0).clamp(min=1e-6)])
+
+    def forward(self, extents: Tensor) -> Tensor:
+        """(B,) sides to (B, 1)."""
+        mean, spread = self.mean_and_spread
+        standardised: Tensor = (extents.log() - mean) / spread
+        return standardised[:, None]
+
+
+def with_size(features: Tensor, size: SizeInput | None, extents: Tensor | None) -> Tensor:
+    """The features (B, K) of pictures, with the size where the network has that input."""
+    if size is None or extents is None:
+        return features
+    return torch.cat([features, size(extents)], dim=1)

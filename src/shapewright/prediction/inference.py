@@ -21,8 +21,8 @@ Metrics: TypeAlias = dict[str, dict[str, Any]]
 _PIXELS = 2**22  # Pixels of one channel that pass the network at once, which bounds the memory it takes. By hand.
 
 
-def outputs(network: nn.Module, images: NDArray[np.uint8]) -> list[Tensor]:
-    """The network's answers to images (N, C, 2, S, S), in evaluation mode, on the CPU."""
+def outputs(network: nn.Module, images: NDArray[np.uint8], extents: Floats | None = None) -> list[Tensor]:
+    """The network's answers to images (N, C, 2, S, S) and sizes (N,), in evaluation mode, on the CPU."""
     device = next(network.parameters()).device
     rows = max(1, _PIXELS // math.prod(images.shape[1:2] + images.shape[3:]))
     network.eval()
@@ -30,13 +30,16 @@ def outputs(network: nn.Module, images: NDArray[np.uint8]) -> list[Tensor]:
     with torch.inference_mode():
         for start in range(0, len(images), rows):
             part = torch.from_numpy(images[start : start + rows]).to(device).float() / 255.0
-            answers.append([answer.float().cpu() for answer in network(part)])
+            sides = None if extents is None else torch.from_numpy(extents[start : start + rows]).to(device)
+            answers.append([answer.float().cpu() for answer in network(part, sides)])
     return [torch.cat(column) for column in zip(*answers, strict=True)]
 
 
-def infer(network: nn.Module, space: ParameterSpace, images: NDArray[np.uint8]) -> Prediction:
-    """What is likely for images (N, C, 2, S, S), at least one."""
-    answers = list(zip(space, outputs(network, images), strict=True))
+def infer(
+    network: nn.Module, space: ParameterSpace, images: NDArray[np.uint8], extents: Floats | None = None
+) -> Prediction:
+    """What is likely for images (N, C, 2, S, S), at least one, and sizes (N,)."""
+    answers = list(zip(space, outputs(network, images, extents), strict=True))
     columns = tuple((out.softmax(dim=1) if p.classes else out[:, 0].clamp(0.0, 1.0)).numpy() for p, out in answers)
     spreads = tuple(None if p.classes else out[:, 1].exp().numpy() for p, out in answers)
     return Prediction(space, columns, spreads)
@@ -49,7 +52,7 @@ def calibrate(network: nn.Module, space: ParameterSpace, validation: Dataset) ->
     """
     if not len(validation):
         return
-    prediction = infer(network, space, validation.images)
+    prediction = infer(network, space, validation.images, validation.extents)
     for column, (parameter, spread) in enumerate(zip(space, prediction.spreads, strict=True)):
         head, rows = head_of(network, parameter.name), validation.active[:, column]
         if not isinstance(head, ScalarHead) or spread is None:
@@ -61,7 +64,7 @@ def calibrate(network: nn.Module, space: ParameterSpace, validation: Dataset) ->
 
 def measure(network: nn.Module, space: ParameterSpace, held_out: Dataset) -> Metrics:
     """The ``score`` of the network on these rows."""
-    return score(infer(network, space, held_out.images), held_out.targets, held_out.active)
+    return score(infer(network, space, held_out.images, held_out.extents), held_out.targets, held_out.active)
 
 
 def score(prediction: Prediction, targets: Floats, active: NDArray[np.bool_]) -> Metrics:

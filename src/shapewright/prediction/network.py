@@ -10,7 +10,7 @@ from torch import Tensor, nn
 from torch.nn import functional
 
 from shapewright.parameters import ParameterSpace
-from shapewright.prediction.heads import Heads
+from shapewright.prediction.heads import Heads, SizeInput, with_size
 from shapewright.prediction.vgg import VGG19Network
 from shapewright.settings import Network
 
@@ -23,10 +23,13 @@ _LOG_SPREAD = (-9.0, 2.0)
 class CompactNetwork(nn.Module):
     """A strided CNN over the stacked views and one MLP a parameter, small enough to train on a CPU in a minute.
 
-    Takes images (B, C, 2, S, S) in [0, 1], S a multiple of 16; gives what Heads gives.
+    Takes images (B, C, 2, S, S) in [0, 1], S a multiple of 16, and where it is sized the longest sides (B,) of the
+    shapes; gives what Heads gives.
     """
 
-    def __init__(self, space: ParameterSpace, views: int, size: int = 64, width: int = 128) -> None:
+    def __init__(
+        self, space: ParameterSpace, views: int, size: int = 64, width: int = 128, sized: bool = False
+    ) -> None:
         super().__init__()
         layers: list[nn.Module] = []
         channels, side = 2 * views, size
@@ -35,20 +38,29 @@ class CompactNetwork(nn.Module):
             layers += [nn.Conv2d(channels, out, kernel, stride, margin, bias=False), nn.BatchNorm2d(out), nn.GELU()]
             channels, side = out, side // stride
         self.features = nn.Sequential(*layers)
-        self.summary = nn.Sequential(nn.Linear(channels * side * side, 2 * width), nn.GELU())
+        self.size = SizeInput() if sized else None
+        self.summary = nn.Sequential(nn.Linear(channels * side * side + sized, 2 * width), nn.GELU())
         self.heads = Heads(space, 2 * width, width)
         self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]
 
-    def forward(self, images: Tensor) -> list[Tensor]:
+    def forward(self, images: Tensor, extents: Tensor | None = None) -> list[Tensor]:
         features = self.features(images.flatten(1, 2).contiguous(memory_format=torch.channels_last))
         with torch.autocast(images.device.type, enabled=False):  # these weights take longer to convert than to multiply
-            answers: list[Tensor] = self.heads(self.summary(features.permute(0, 2, 3, 1).flatten(1).float()))
+            flat = with_size(features.permute(0, 2, 3, 1).flatten(1).float(), self.size, extents)
+            answers: list[Tensor] = self.heads(self.summary(flat))
         return answers
 
 
-def make_network(name: Network, space: ParameterSpace, views: int, size: int, weights: Path | None = None) -> nn.Module:
-    """A network fresh from torch's random numbers; weights: a file of VGG19's, see vgg.VGG19Network."""
-    return CompactNetwork(space, views, size) if name == "compact" else VGG19Network(space, views, size, weights)
+def make_network(
+    name: Network, space: ParameterSpace, views: int, size: int, weights: Path | None = None, sized: bool = False
+) -> nn.Module:
+    """A network fresh from torch's random numbers; weights: a file of VGG19's, see vgg.VGG19Network.
+
+    sized: it takes the size of a shape beside its pictures.
+    """
+    if name == "compact":
+        return CompactNetwork(space, views, size, sized=sized)
+    return VGG19Network(space, views, size, weights, sized=sized)
 
 
 def loss(space: ParameterSpace, outputs: Sequence[Tensor], targets: Tensor, active: Tensor) -> Tensor:

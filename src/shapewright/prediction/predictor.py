@@ -9,21 +9,19 @@ from pathlib import Path
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import nn
 
 from shapewright.parameters import Parameters, ParameterSpace, Prediction, from_record, to_record
 from shapewright.prediction.devices import torch_threads
+from shapewright.prediction.heads import SizeInput
 from shapewright.prediction.inference import Metrics, infer
 from shapewright.prediction.network import CompactNetwork, make_network
 from shapewright.prediction.training import Epoch
-from shapewright.prediction.views.silhouettes import joined
-from shapewright.rendering.cameras import ANYWHERE, PAGE, Camera
-from shapewright.rendering.framed import pictures_of
+from shapewright.rendering.cameras import PAGE, Camera
 from shapewright.rendering.raster import render
-from shapewright.shapes import Drawing, Mesh, ReferenceShape, Views
+from shapewright.shapes import Drawing, ReferenceShape, extent_of
 from shapewright.storage import write_file
-
-_WORDS = {Drawing: "drawings", Views: "pictures of objects", Mesh: "meshes"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,32 +69,37 @@ class Predictor:
         record = torch.load(path, map_location="cpu", weights_only=True)
         space = ParameterSpace(tuple(from_record(parameter) for parameter in record["space"]))
         cameras = tuple(Camera(*values) for values in record["cameras"])
-        network = make_network(record["network"], space, len(cameras), record["size"])
+        sized = any(name.startswith("size.") for name in record["state"])
+        network = make_network(record["network"], space, len(cameras), record["size"], sized=sized)
         network.load_state_dict(record["state"])
         return cls(space, network.eval(), cameras, record["size"], record["metrics"], [], record["samples"])
 
-    def predict(self, shapes: Sequence[ReferenceShape]) -> list[Parameters]:
-        """The parameters for each shape, which need not be normalised."""
-        return self.infer(shapes).decode()
+    def predict(
+        self, shapes: Sequence[ReferenceShape], extents: Sequence[float | None] | None = None
+    ) -> list[Parameters]:
+        """The parameters for each shape, which need not be normalised. extents: as for ``infer``."""
+        return self.infer(shapes, extents).decode()
 
-    def infer(self, shapes: Sequence[ReferenceShape]) -> Prediction:
+    def infer(self, shapes: Sequence[ReferenceShape], extents: Sequence[float | None] | None = None) -> Prediction:
         """What is likely for each shape, and how far off each scalar may be.
 
-        Raises ValueError for shapes of another kind than it has learned from.
+        extents: the longest side of each, for normalised shapes where sizes mean what they say; by default, and for
+        None, that of the shape as it is.
+
+        Raises ValueError for meshes where it has learned from drawings, and the other way round.
         """
-        kind = Views if self.cameras == (ANYWHERE,) else Drawing if self.cameras == (PAGE,) else Mesh
-        if any(_kind(shape) is not kind for shape in shapes):
-            raise ValueError(f"this predictor has learned from {_WORDS[kind]}; give it such")
-        objects = [shape for shape in shapes if isinstance(shape, Views)]
-        if objects:
-            images = np.stack([pictures_of(view, self.size) for some in objects for view in some.views])
-        else:
-            images = render([s.normalised() for s in shapes], self.cameras, self.size, threads=self.threads)
+        drawn = self.cameras == (PAGE,)
+        if any(isinstance(shape, Drawing) != drawn for shape in shapes):
+            raise ValueError(f"this predictor has learned from {'drawings' if drawn else 'meshes'}; give it such")
+        images = render([shape.normalised() for shape in shapes], self.cameras, self.size, threads=self.threads)
         with torch_threads(self.threads):
-            prediction = infer(self.network, self.space, images)
-        return joined(prediction, [len(some) for some in objects]) if objects else prediction
+            return infer(self.network, self.space, images, self._sides(shapes, extents))
 
-
-def _kind(shape: ReferenceShape) -> type[Mesh] | type[Drawing] | type[Views]:
-    """The kind of shapes to have learned from: meshes for points."""
-    return type(shape) if isinstance(shape, Drawing | Views) else Mesh
+    def _sides(
+        self, shapes: Sequence[ReferenceShape], extents: Sequence[float | None] | None
+    ) -> NDArray[np.float32] | None:
+        if not isinstance(self.network.size, SizeInput):
+            return None
+        given = extents or [None] * len(shapes)
+        sides = [extent or extent_of(shape) for shape, extent in zip(shapes, given, strict=True)]
+        return np.array(sides, dtype=np.float32)

@@ -21,6 +21,7 @@ from shapewright.parameters import ParameterSpace
 from shapewright.prediction.camera_learning import LearnedCameras, camera_gradient
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.devices import autocast, pick, torch_threads
+from shapewright.prediction.heads import SizeInput
 from shapewright.prediction.inference import calibrate, outputs
 from shapewright.prediction.network import loss, make_network, spread_loss
 from shapewright.rendering.cameras import Camera
@@ -82,12 +83,10 @@ def train_network(
     progress: Callable[[Epoch], None] | None = None,
     threads: int | None = None,
     initial: nn.Module | None = None,
-    redraw: Callable[[Dataset, int], Dataset] | None = None,
 ) -> Trained:
     """Train a network on shapes as the dataset's cameras see them, and where they are learned, these cameras too.
 
-    initial: a network to start from, where its layers match by name and shape; the others start fresh. redraw: gives
-    the training rows other pictures before each epoch but the first, by the epoch's number.
+    initial: a network to start from, where its layers match by name and shape; the others start fresh.
 
     On a CPU every batch is computed as two fixed shards, each on its own thread, whose gradients are averaged: on few
     cores that is faster than torch's own threads, far more so when other programs are busy, and the result does not
@@ -106,7 +105,9 @@ def train_network(
     with torch_threads(each), torch.random.fork_rng(devices=[]), exact:
         torch.default_generator.manual_seed(schedule.seed)
         views, size = training.images.shape[1], training.size
-        network = make_network(schedule.network, space, views, size, schedule.weights)
+        network = make_network(schedule.network, space, views, size, schedule.weights, training.extents is not None)
+        if training.extents is not None and isinstance(network.size, SizeInput):
+            network.size.learn(torch.from_numpy(training.extents))
         if initial is not None:
             _inherit(network, initial)
         network.to(device)
@@ -115,8 +116,6 @@ def train_network(
         with ThreadPoolExecutor(min(threads, count), initializer=partial(torch.set_num_threads, each)) as pool:
             for epoch in range(1, schedule.epochs + 1):
                 network.train()
-                if redraw and epoch > 1:
-                    training = redraw(training, epoch)
                 losses: list[float] = []
                 for rows in np.array_split(rng.permutation(len(training)), batches):
                     through = cameras.cameras if epoch <= moving else None
@@ -186,7 +185,7 @@ def _backward(
     pictures.requires_grad_(cameras is not None)
     targets, active = (torch.from_numpy(values[rows]).to(device) for values in (data.targets, data.active))
     with autocast(device):
-        answers = shard(pictures)
+        answers = shard(pictures, None if data.extents is None else torch.from_numpy(data.extents[rows]).to(device))
     value = loss(space, answers, targets, active)
     shard.zero_grad()
     (value + spread_loss(space, answers, targets, active)).backward()  # type: ignore[no-untyped-call]
@@ -210,4 +209,4 @@ def _validation_loss(space: ParameterSpace, network: nn.Module, validation: Data
     if not len(validation):
         return math.nan
     targets, active = torch.from_numpy(validation.targets), torch.from_numpy(validation.active)
-    return float(loss(space, outputs(network, validation.images), targets, active))
+    return float(loss(space, outputs(network, validation.images, validation.extents), targets, active))

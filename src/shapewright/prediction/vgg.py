@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from shapewright.parameters import ParameterSpace
-from shapewright.prediction.heads import Heads
+from shapewright.prediction.heads import Heads, SizeInput, with_size
 
 _LAYERS = (64, 64, "M", 128, 128, "M", 256, 256, 256, 256, "M", 512, 512, 512, 512, "M", 512, 512, 512, 512, "M")
 _GREY_MEAN, _GREY_DEVIATION = 0.449, 0.226  # of ImageNet's pictures, over their three colours
@@ -28,7 +28,13 @@ class VGG19Network(nn.Module):
     """
 
     def __init__(
-        self, space: ParameterSpace, views: int, size: int, weights: Path | None = None, width: int = 128
+        self,
+        space: ParameterSpace,
+        views: int,
+        size: int,
+        weights: Path | None = None,
+        width: int = 128,
+        sized: bool = False,
     ) -> None:
         super().__init__()
         if size < 32:
@@ -37,14 +43,15 @@ class VGG19Network(nn.Module):
         side = size // 32
         cell = -(-side // _SIDE)
         self.pool = nn.AvgPool2d(cell, ceil_mode=True)
-        self.heads = Heads(space, views * 512 * (-(-side // cell)) ** 2, width)
+        self.size = SizeInput() if sized else None
+        self.heads = Heads(space, views * 512 * (-(-side // cell)) ** 2 + sized, width)
         if weights:
             self.features.load_state_dict(_read(weights))
 
-    def forward(self, images: Tensor) -> list[Tensor]:
+    def forward(self, images: Tensor, extents: Tensor | None = None) -> list[Tensor]:
         every_view = (images.flatten(0, 1) - _GREY_MEAN) / _GREY_DEVIATION
         features = self.pool(self.features(every_view))
-        answers: list[Tensor] = self.heads(features.reshape(len(images), -1))
+        answers: list[Tensor] = self.heads(with_size(features.reshape(len(images), -1), self.size, extents))
         return answers
 
 

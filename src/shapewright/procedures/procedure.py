@@ -12,6 +12,7 @@ from typing import Any, overload
 
 from shapewright.parameters import ParameterSpace
 from shapewright.procedures.errors import Infeasible, ProcedureError
+from shapewright.procedures.facts import Axis, Facts, Size, Unit
 from shapewright.procedures.places import Place
 from shapewright.procedures.signature import name_of, place_in, signature_of
 from shapewright.shapes import Shape
@@ -27,9 +28,12 @@ class Procedure:
         signature: how the function is called with values of the space.
         path: the author's file, if it was loaded from one.
         helpers: files that it imported from its own folder.
+        facts: what is true of all its shapes.
     """
 
-    def __init__(self, function: Callable[..., Any], names: Mapping[str, Any] | None = None) -> None:
+    def __init__(
+        self, function: Callable[..., Any], names: Mapping[str, Any] | None = None, facts: Facts | None = None
+    ) -> None:
         """names: those of the place where the function is defined, which its annotations may use."""
         self.function: Callable[..., Any] = function.__func__ if isinstance(function, staticmethod) else function
         functools.update_wrapper(self, self.function)
@@ -37,13 +41,14 @@ class Procedure:
         self.signature = signature_of(self.function, names)
         self.path: Path | None = None
         self.helpers: tuple[Path, ...] = ()
+        self.facts = facts or Facts()
 
     @property
     def space(self) -> ParameterSpace:
         return self.signature.space
 
     def __call__(self, /, *args: Any, **kwargs: Any) -> Shape:
-        """Build the shape for these parameters; those left out are at their defaults.
+        """Build the shape for these parameters, Y up; those left out are at their defaults.
 
         Values outside a Range are the caller's own risk: the function is called with what it is given.
         Raises Infeasible, ProcedureError when the function returns no shape, and whatever the function raises.
@@ -54,7 +59,7 @@ class Procedure:
         if inspect.isgenerator(result):
             result = list(result)  # here, so that what the author's code raises is the author's
         try:
-            return as_shape(result)
+            return self.facts.stood(as_shape(result))
         except (TypeError, ValueError) as error:
             raise ProcedureError(str(error), self.place) from error
 
@@ -90,19 +95,40 @@ class Procedure:
 
 
 @overload
-def procedure(function: Callable[..., Any]) -> Procedure: ...
+def procedure(function: Callable[..., Any], /) -> Procedure: ...
 @overload
-def procedure() -> Callable[[Callable[..., Any]], Procedure]: ...
-def procedure(function: Callable[..., Any] | None = None) -> Procedure | Callable[[Callable[..., Any]], Procedure]:
-    """Make a function a procedure: ``@procedure`` above it.
+def procedure(
+    *, up: Axis = "y", unit: Unit | None = None, size: Size = "relative"
+) -> Callable[[Callable[..., Any]], Procedure]: ...
+def procedure(
+    function: Callable[..., Any] | None = None,
+    /,
+    *,
+    up: Axis = "y",
+    unit: Unit | None = None,
+    size: Size = "relative",
+) -> Procedure | Callable[[Callable[..., Any]], Procedure]:
+    """Make a function a procedure: ``@procedure``, or with facts ``@procedure(up="z", unit="mm", size="given")``.
 
     A dataclass whose objects build themselves when they are called can be one, and whatever else can be called.
-    Raises ProcedureError when its signature is no parameter space.
+    Raises ProcedureError when its signature is no parameter space, or a fact is none.
+
+    Args:
+        function: the author's.
+        up: the axis that points up in what it builds.
+        unit: of its lengths.
+        size: "given" finds replicas of the references' own size; "relative" of their proportions alone.
     """
     names = dict(sys._getframe(1).f_locals)  # annotations as text may mean names of the function around
 
     def made(function: Callable[..., Any]) -> Procedure:
-        return function if isinstance(function, Procedure) else Procedure(function, names)
+        if isinstance(function, Procedure):
+            return function
+        try:
+            facts = Facts(up, unit, size)
+        except ValueError as error:
+            raise ProcedureError(str(error), place_in(function)) from error
+        return Procedure(function, names, facts)
 
     return made if function is None else made(function)
 

@@ -33,8 +33,11 @@ _NO_LABEL = (_NAME, _REST)
 """Names in files of faces without a label; a GLB says with each part of such a name if it is a label after all."""
 
 
-def encode(shape: Shape, format: Format = "glb", extras: Extras | None = None) -> bytes:
-    """The bytes of a file: of a mesh in this format, of a drawing as SVG whatever the format."""
+def encode(shape: Shape, format: Format = "glb", extras: Extras | None = None, metres: float | None = None) -> bytes:
+    """The bytes of a file: of a mesh in this format, of a drawing as SVG whatever the format.
+
+    metres: length of the unit, for GLB, the only one of these formats that has one.
+    """
     if isinstance(shape, Drawing):
         return svg(shape, extras)
     if format in ("stl", "off"):
@@ -42,12 +45,13 @@ def encode(shape: Shape, format: Format = "glb", extras: Extras | None = None) -
 
         exported = trimesh.Trimesh(shape.vertices, shape.faces, process=False).export(file_type=format)
         return exported.encode() if isinstance(exported, str) else bytes(exported)
-    return {"glb": glb, "ply": ply, "obj": obj}[format](shape, extras)
+    return glb(shape, extras, metres) if format == "glb" else {"ply": ply, "obj": obj}[format](shape, extras)
 
 
-def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
+def glb(mesh: Mesh, extras: Extras | None = None, metres: float | None = None) -> bytes:
     """Binary glTF 2.0: one node for each label, and of a label with several colours for each of these, with vertices
-    of its own, under a root node that holds the extras, as the scene does."""
+    of its own, under a root node that holds the extras, as the scene does, and brings a unit of so many metres to one.
+    """
     buffer = bytearray()
     accessors: list[dict[str, Any]] = []
     views: list[dict[str, Any]] = []
@@ -71,6 +75,8 @@ def glb(mesh: Mesh, extras: Extras | None = None) -> bytes:
             views.append({"buffer": 0, "byteOffset": len(buffer), "byteLength": len(data), "target": target})
             accessors.append(_accessor(len(views) - 1, array))
             buffer += data + bytes(-len(data) % 4)
+    if metres:
+        nodes[0]["scale"] = [metres] * 3
     nodes[0]["children"] = list(range(1, len(nodes)))
     known = {"extras": dict(extras)} if extras else {}
     nodes[0] |= known

@@ -135,12 +135,19 @@ def affordable(budget: Budget, share: float, references: int, crew: Workers) -> 
 
 
 def prediction_of(
-    space: ParameterSpace, predictor: Predictor | None, known: Sequence[Replica], shapes: Sequence[Shape]
+    space: ParameterSpace,
+    predictor: Predictor | None,
+    known: Sequence[Replica],
+    shapes: Sequence[Shape],
+    extents: Sequence[float | None],
 ) -> Prediction:
-    """What the predictor says of references, or what is known of them, not quite sure of its choices, without one."""
+    """What the predictor says of references, or what is known of them, not quite sure of its choices, without one.
+
+    extents: of the references, the longest sides that replicas are to have, where sizes count.
+    """
     if predictor and knows(predictor, space):
         # A predictor that was saved has lost each ``when`` of its space.
-        return replace(predictor.infer(shapes), space=space)
+        return replace(predictor.infer(shapes, extents), space=space)
     return Prediction.of(space, [replica.parameters for replica in known], doubt=_UNSURE)
 
 

@@ -59,7 +59,9 @@ def causes(
     leans = leaning(crew, standing, settings.workers, [case.replica.mesh for case in lacking])
     leaning_ones = [or_leaning(case, lean) for case, lean in zip(lacking, leans, strict=True)]
     misfits = updated(misfits, leaning_ones)
-    stood = standings(misfits, predictor if predictor and knows(predictor, space) else None, crew, settings.workers)
+    extents = [judge.references.extents[case.row] for case in misfits]
+    knowing = predictor if predictor and knows(predictor, space) else None
+    stood = standings(misfits, knowing, crew, settings.workers, extents)
     pairs = zip(misfits, stood, strict=True)
     posed = [replace(case, causes=(its.cause(case.reference), *case.causes)) for case, its in pairs if its.told]
     return updated(cases, updated(misfits, posed))
@@ -72,7 +74,8 @@ def _searched(
     space, threads = crew.procedure.space, judge.settings.workers
     known = with_fields([case.replica for case in misfits], judge)
     overlays = in_threads(lambda case: Overlay(case.residuals.reference, case.replica.mesh), misfits, threads)
-    prediction = prediction_of(space, predictor, known, [case.reference for case in misfits])
+    extents = [judge.references.extents[case.row] for case in misfits]
+    prediction = prediction_of(space, predictor, known, [case.reference for case in misfits], extents)
     covering = covering_replicas(known, overlays, prediction, crew, judge)
     misfits = [
         replace(case, replica=old, overlay=overlay, covering=new, nearest=min(old, new, key=attrgetter("apart")))

@@ -60,9 +60,10 @@ def drawn_causes(
     if not misfits:
         return list(cases)
     space, known = crew.procedure.space, [case.replica for case in misfits]
+    extents = [judge.references.extents[case.row] for case in misfits]
     vectors = refine(
         SearchStart(
-            prediction_of(space, predictor, known, [case.reference for case in misfits]),
+            prediction_of(space, predictor, known, [case.reference for case in misfits], extents),
             [replica.parameters for replica in known],
         ),
         judge.criterion([case.row for case in misfits]),

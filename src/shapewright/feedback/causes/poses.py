@@ -107,15 +107,22 @@ class Standing:
         return Cause("another pose", text, evidence, picture=thumbnail(pose.of(reference), _PICTURE))
 
 
-def standings(cases: Sequence[Case], predictor: Predictor | None, crew: Workers, threads: int | None) -> list[Standing]:
+def standings(
+    cases: Sequence[Case],
+    predictor: Predictor | None,
+    crew: Workers,
+    threads: int | None,
+    extents: Sequence[float | None],
+) -> list[Standing]:
     """How each reference stands.
 
     In every pose the replicas that are known are laid over the reference, and the one that is predicted for it in that
-    pose; the nearest counts.
+    pose; the nearest counts. extents: the longest sides that replicas are to have, where sizes count.
     """
     poses = (AS_GIVEN, *OTHERS)
     stood = [[pose.of(case.reference) for pose in poses] for case in cases]
-    guesses = predictor.predict([mesh for row in stood for mesh in row]) if predictor else []
+    sides = [extent for extent in extents for _ in poses]
+    guesses = predictor.predict([mesh for row in stood for mesh in row], sides) if predictor else []
     builds = [build.shape for build in crew.build(guesses)] or [None] * (len(poses) * len(cases))
 
     def standing(i: int) -> Standing:

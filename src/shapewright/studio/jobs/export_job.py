@@ -48,10 +48,12 @@ def pack(request: Mapping[str, Any], reporter: events.Reporter) -> Path:
 
 def _replicas(run: Path, format: Format, reporter: events.Reporter) -> Iterator[tuple[str, bytes]]:
     """Names and contents of the replicas' files; each says in its extras which reference it replicates."""
+    from shapewright.procedures import Facts
     from shapewright.runs.result import read_replica
     from shapewright.shapes.files import encode
 
     record = read_record(run)
+    facts = Facts.of(record["procedure"])
     entries = [entry for entry in record["references"] if entry["replica"]]
     for done, entry in enumerate(entries):
         file = run / entry["replica"]
@@ -61,7 +63,8 @@ def _replicas(run: Path, format: Format, reporter: events.Reporter) -> Iterator[
             extras = {"procedure": record["procedure"]["name"], "reference": entry["name"]}
             shape = read_replica(run, entry)
             assert shape is not None
-            yield f"{entry['slug']}.{format}", encode(shape, format, {**extras, "parameters": entry["parameters"]})
+            extras |= {"parameters": entry["parameters"], **facts.stated}
+            yield f"{entry['slug']}.{format}", encode(facts.laid(shape), format, extras)
         reporter.stage("replicas", done + 1, len(entries))
 
 

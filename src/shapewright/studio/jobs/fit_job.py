@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,13 +19,12 @@ PREDICTIONS = "predictions.json"
 """In a run's folder: what the network said of every reference before the search, and how sure it was."""
 
 
-def collection(origin: Origin, suit: Callable[[Collection], Collection] = lambda whole: whole) -> Collection:
-    """The references of a project, but for those that lead out of it. suit: what they are to a procedure, see
-    ``fitting.pictures``. Raises CollectionError."""
+def collection(origin: Origin) -> Collection:
+    """The references of a project, but for those that lead out of it. Raises CollectionError."""
     from shapewright.references import Collection
 
     listed = listing(origin)
-    whole = suit(Collection.load(origin.source, up=origin.up, front=origin.front))
+    whole = Collection.load(origin.source, up=origin.up, front=origin.front)
     outside = {path.absolute() for path in listed.skipped}
     inside = tuple(r for r in whole.references if r.path is None or r.path.absolute() not in outside)
     return replace(whole, references=inside, skipped={**whole.skipped, **listed.skipped})
@@ -34,7 +33,6 @@ def collection(origin: Origin, suit: Callable[[Collection], Collection] = lambda
 def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     """Fit as the request says and save the run."""
     from shapewright.fitting.fit import fit as iterate
-    from shapewright.fitting.pictures import suited_to
     from shapewright.procedures import load_procedure
     from shapewright.report import write_report
     from shapewright.runs.folder import next_run, previous_run, suggested_parameters
@@ -42,12 +40,12 @@ def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     from shapewright.settings import Settings
     from shapewright.storage import cache_folder, write_file
 
-    procedure, settings = load_procedure(request["procedure"]), Settings.from_record(request["settings"])
-    references = collection(Origin(**request["origin"]), lambda whole: suited_to(procedure, whole, settings))
+    procedure, references = load_procedure(request["procedure"]), collection(Origin(**request["origin"]))
     previous, known = None, None
     if request["previous"]:
         previous = Iteration.load(request["previous"])
         known = suggested_parameters(Path(request["previous"]), procedure.space.names)
+    settings = Settings.from_record(request["settings"])
     iteration = iterate(procedure, references, settings, reporter.progress, cache_folder(), previous, known)
     reporter.stage("save", 0, 1)
     folder = next_run(Path(request["runs"])).absolute()
@@ -60,11 +58,14 @@ def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
 
 def predicted(iteration: Any) -> dict[str, Any]:
     """By name: the predicted parameters, the spread of each scalar in its own units, the likelihood of each class."""
+    from shapewright.shapes import extent_of
+
     predictor = iteration.predictor
     results = [result for result in iteration.results if result.reference is not None]
     if predictor is None or not results:
         return {}
-    prediction = predictor.infer([result.reference for result in results])
+    sides = [None if result.replica is None else extent_of(result.replica) for result in results]
+    prediction = predictor.infer([result.reference for result in results], sides)
     values = prediction.decode()
     by_name: dict[str, Any] = {}
     for i, result in enumerate(results):

@@ -1,1 +1,0 @@
-"""Learning to predict from pictures of objects."""

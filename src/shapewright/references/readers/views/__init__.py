@@ -1,1 +1,0 @@
-"""Pictures of objects, read as views: what of them is the object."""
