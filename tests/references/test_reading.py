@@ -91,3 +91,12 @@ def test_a_large_file_may_take_more_memory_than_a_small_one(tmp_path, monkeypatc
     (tmp_path / "large.ply").write_bytes(encode(mesh, "ply"))
     (found,) = Collection.load(tmp_path / "large.ply")
     assert len(found.shape.faces) == 200_000
+
+
+def test_what_fails_behind_the_reader_has_a_reason_too(tmp_path, monkeypatch):
+    def fail(*_):
+        raise IndexError("behind")
+
+    monkeypatch.setattr(reading, "read_reference", fail)
+    with pytest.raises(CollectionError, match="broken: IndexError: behind"):
+        Collection.load(write(tmp_path / "refs", "a.obj"))

@@ -76,6 +76,10 @@ def attempt(source: Source) -> Reference | UnreadableError:
         return read_reference(source)
     except UnreadableError as error:
         return UnreadableError(str(error))
+    except MemoryError:
+        raise
+    except Exception as error:  # noqa: BLE001 - a shape at the ends of what numbers hold can make anything fail
+        return UnreadableError(f"broken: {type(error).__name__}: {error}")
 
 
 def _size(source: Source) -> int:

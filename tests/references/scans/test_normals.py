@@ -39,3 +39,11 @@ def test_every_point_gets_a_normal_of_length_one_wherever_it_lies():
     rng = np.random.default_rng(0)
     found = with_normals(Points(np.vstack([rng.normal(size=(300, 3)), np.zeros((40, 3))])))
     assert np.allclose(np.linalg.norm(found.normals, axis=1), 1.0)
+
+
+@pytest.mark.parametrize("far", [1e3, 1e9, 1e200])
+def test_a_point_far_away_takes_neither_all_memory_nor_the_normals_of_the_others(far):
+    points = sampled(box((1.0, 0.5, 0.7)).mesh(), 2000)
+    with_far = np.vstack([points.positions, [far, far, far]])
+    cosine = np.einsum("nd,nd->n", with_normals(Points(with_far)).normals[:-1], points.normals)
+    assert (cosine > 0.0).mean() > 0.97

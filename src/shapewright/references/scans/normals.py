@@ -8,6 +8,8 @@ from scipy.spatial import cKDTree
 from shapewright.shapes import Floats, Points
 
 _NEIGHBOURS = 16
+_DENSE = 100
+"""Cells a point of which a whole grid is held: they take 800 bytes a point."""
 _ROUNDS = 100  # of handing a side on to the neighbours
 _FINE = 1.5  # cells of a view's grid, in units of the usual distance to the third neighbour
 
@@ -22,6 +24,8 @@ def with_normals(points: Points) -> Points:
     if known.all() or len(points) <= _NEIGHBOURS:
         return points
     distances, others = cKDTree(points.positions).query(points.positions, k=_NEIGHBOURS)
+    itself = np.arange(len(points))[:, None]
+    others = np.where(others < len(points), others, itself)  # beyond 1e154 the square of a distance overflows
     normals = _planes(points.positions, others)
     if points.seen_from is not None:
         side = np.einsum("nd,nd->n", points.seen_from - points.positions, normals)
@@ -49,8 +53,12 @@ def _seen_sides(positions: Floats, normals: Floats, cell: float) -> Floats:
         first = np.cross(towards, np.eye(3)[np.abs(towards).argmin()])
         first /= np.linalg.norm(first)
         cells = np.floor(positions @ np.stack([first, np.cross(towards, first)], axis=1) / max(cell, 1e-12))
-        cells = (cells - cells.min(axis=0)).astype(np.int64)
-        place = cells[:, 0] * (cells[:, 1].max() + 1) + cells[:, 1]
+        cells -= cells.min(axis=0)
+        width, height = cells.max(axis=0) + 1.0
+        if width * height <= _DENSE * len(cells):
+            place = (cells[:, 0] * height + cells[:, 1]).astype(np.int64)
+        else:  # points far away from all others
+            place = np.unique(cells @ np.array([1.0, 1.0j]), return_inverse=True)[1]
         depth = positions @ towards
         front = np.full(place.max() + 1, -np.inf)
         np.maximum.at(front, place, depth)
