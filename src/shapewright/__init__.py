@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from shapewright.parameters import Binary, Choice, Integer, ParameterSpace, Range, Scalar, Seed, When
 from shapewright.procedures import Infeasible, Procedure, ProcedureError, load_procedure, procedure
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Mesh, Points, Transform
+from shapewright.shapes import Drawing, Mesh, Points, Transform, View, Views
 from shapewright.shapes.conversion import register
 
 if TYPE_CHECKING:
@@ -78,6 +78,8 @@ __all__ = [
     "Settings",
     "Transform",
     "Verdict",
+    "View",
+    "Views",
     "When",
     "compare",
     "evaluate",

@@ -111,6 +111,13 @@ def test_evaluate_prints_a_row_for_each_parameter(project):
     assert all("height" in variant["parameters"] for variant in found)
 
 
+def test_describe_shows_the_space(project):
+    table = shapewright("describe", "stool.py", cwd=project)
+    assert table.returncode == 0 and "parameter" in table.stdout
+    schema = last_json(shapewright("describe", "stool.py", "--json", cwd=project))
+    assert schema["title"] == "stool" and all(name in table.stdout for name in schema["properties"])
+
+
 def test_sample_without_a_shape_fails(project):
     text = (project / "stool.py").read_text()
     (project / "number.py").write_text(

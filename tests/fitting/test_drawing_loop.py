@@ -9,6 +9,7 @@ import pytest
 import shapewright as sw
 from shapewright import Range
 from shapewright.fitting.evaluation import evaluate
+from shapewright.fitting.pictures import suited_to
 from shapewright.modelling.drawing import box, circle, polyline
 from shapewright.modelling.solids import box as block
 from shapewright.report import write_report
@@ -93,7 +94,7 @@ def test_trials_on_held_out_drawings():
 
 def test_kinds_do_not_mix(iteration):
     solids = sw.Collection.of({"a": block(1)})
-    with pytest.raises(sw.ProcedureError, match="it builds drawings, and references are meshes"):
+    with pytest.raises(sw.ProcedureError, match="it builds drawings, and these references need meshes"):
         sw.fit(table, solids, SETTINGS)
     with pytest.raises(ValueError, match="learned from drawings"):
         iteration.predictor.predict([solids["a"].shape])
@@ -102,5 +103,5 @@ def test_kinds_do_not_mix(iteration):
     def cube(size: Annotated[float, Range(0.5, 1.0)] = 0.7):
         return block((1, size, 1))
 
-    with pytest.raises(sw.ProcedureError, match="it builds meshes, and references are drawings"):
-        sw.fit(cube, references(), SETTINGS)
+    assert suited_to(cube, references(), SETTINGS).in_views
+    assert not suited_to(table, references(), SETTINGS).in_views

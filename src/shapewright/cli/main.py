@@ -1,4 +1,4 @@
-"""The command line: new, fit, explain, mark, evaluate, sample, silhouettes, report, compare, rules, studio, demo."""
+"""The command line: each command, and what a failure prints."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from shapewright.cli.fits import fit
 from shapewright.cli.projects import demo, new
 from shapewright.cli.rules import rules
 from shapewright.cli.runs import compare, explain, mark, report
-from shapewright.cli.shape_files import sample, silhouettes
+from shapewright.cli.shape_files import describe, sample, silhouettes
 from shapewright.cli.studio import studio
 from shapewright.procedures import ProcedureError
 from shapewright.references.errors import CollectionError
@@ -28,7 +28,7 @@ app = typer.Typer(
     help="Find the parameters that replicate a collection of shapes, and see what the procedure cannot make yet.",
     epilog="Start with [bold]shapewright demo[/], or with [bold]shapewright new chairs[/] for a project of your own.",
 )
-for command in (new, fit, explain, mark, evaluate, sample, silhouettes, report, compare, studio, demo):
+for command in (new, fit, explain, mark, evaluate, describe, sample, silhouettes, report, compare, studio, demo):
     app.command()(command)
 app.add_typer(rules, name="rules")
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 from rich.markup import escape
+from rich.table import Table
 
 from shapewright.cli.console import err, interruptible, out, print_json
 from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers
@@ -49,6 +51,32 @@ def sample(
     else:
         unsound = f", {samples.unsound} of them unsound," if samples.unsound else ""
         out.print(f"{samples.shapes} shapes{unsound} and {MANIFEST} in {escape(str(out_dir))}", highlight=False)
+
+
+def describe(procedure: ProcedureArgument, json: Json = False) -> None:
+    """Show the parameter space of a procedure; with --json as JSON Schema."""
+    author = load_procedure(procedure)
+    if json:
+        print_json({"title": author.name, **author.space.to_schema(), "x-fixed": list(author.signature.fixed)})
+    else:
+        table = Table("parameter", "kind", "values", "default", "when", box=None, pad_edge=False)
+        for name, entry in author.space.to_schema()["properties"].items():
+            cells = (name, entry.get("type", "choice"), _values(entry), str(entry["default"]), entry.get("x-when", ""))
+            table.add_row(*map(escape, cells))
+        out.print(table)
+        if author.signature.fixed:
+            out.print(f"left at their defaults, since they have no Range: {', '.join(author.signature.fixed)}")
+
+
+def _values(entry: Mapping[str, Any]) -> str:
+    """What a parameter may be, from its schema."""
+    if "enum" in entry:
+        return ", ".join(map(str, entry["enum"]))
+    if "minimum" not in entry:
+        return "yes, no"
+    steps = entry.get("x-steps")
+    sampled = "" if steps is None else f", {steps} steps" if isinstance(steps, int) else f", at {len(steps)} values"
+    return f"{entry['minimum']:g} to {entry['maximum']:g}{sampled}{', log' if 'x-scale' in entry else ''}"
 
 
 def silhouettes(

@@ -29,7 +29,7 @@ class BlurredDifference:
     """
 
     def __init__(self, reference: Drawing) -> None:
-        self._reference = _blurred(reference)
+        self._reference = at_scales(coverage(reference, SMALL))
 
     def residual(self, replica: Shape) -> Floats | None:
         """(1360,): differences of the pictures' samples; a black pixel counts UNIT. PARTS tells the scales apart.
@@ -38,7 +38,7 @@ class BlurredDifference:
         """
         if not isinstance(replica, Drawing) or not silhouette(replica).any():
             return None
-        return _blurred(replica) - self._reference
+        return at_scales(coverage(replica, SMALL)) - self._reference
 
 
 def _lens(blur: float, step: int) -> Floats:
@@ -51,7 +51,11 @@ def _lens(blur: float, step: int) -> Floats:
 _LENSES = tuple(_lens(*scale) for scale in SCALES)
 
 
-def _blurred(drawing: Drawing) -> Floats:
-    """(K,): a drawing at every one of the SCALES, in units of UNIT for each pixel of the picture."""
-    sharp = coverage(drawing, SMALL) * UNIT
-    return np.concatenate([(lens @ sharp @ lens.T).ravel() for lens in _LENSES])
+def at_scales(covered: Floats, part: slice = slice(None)) -> Floats:
+    """(K,): a picture (SMALL, SMALL) of coverage, 0 to 1, at the SCALES, in units of UNIT for each pixel of it.
+
+    part: one of PARTS, for its scale alone.
+    """
+    lenses = _LENSES if part == slice(None) else (_LENSES[PARTS.index(part)],)
+    sharp = covered * UNIT
+    return np.concatenate([(lens @ sharp @ lens.T).ravel() for lens in lenses])

@@ -29,6 +29,10 @@ from shapewright.runs.iteration import Iteration
 from shapewright.shapes import Drawing, Mesh, Points
 from shapewright.threads import in_threads
 
+IN_VIEWS = (
+    "the references are pictures of objects, of which nobody knows all sides: they cannot be explained yet. The report "
+    "marks what is missing and what is too much in each picture"
+)
 _OF_CAUSES = {"describe": 0.04, "differences": 0.06, "causes": 0.9}
 _SHARES = {"describe": 0.03, "differences": 0.04, "causes": 0.53, "hypotheses": 0.1, "trials": 0.3}
 """Of each stage in the time that explaining takes, without suggestions and with them: estimates, good enough to say
@@ -74,12 +78,14 @@ def explain(
         rules: the library that suggestions draw on; by default all of ``rules.library.library``.
 
     Raises:
-        RunError: the references are to be loaded, but were made in memory or are not where they were; or all of them
-            are points. What is said goes by surfaces, and those of points are not known. Of a collection with meshes
-            the meshes are explained.
+        RunError: the references are to be loaded, but were made in memory or are not where they were; or they are
+            pictures of objects; or all of them are points. What is said goes by surfaces, and those of points are not
+            known. Of a collection with meshes the meshes are explained.
         KeyError: the collection lacks a reference of the iteration.
     """
     references = references or references_of(iteration)
+    if iteration.collection.get("pictures") == "views" or references.in_views:
+        raise RunError(IN_VIEWS)
     settings = replace(iteration.settings, workers=workers or iteration.settings.workers)
     collection = _collection(for_procedure(references, procedure), iteration)
     if all(isinstance(reference.shape, Points) for reference in collection):

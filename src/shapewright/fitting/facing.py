@@ -11,7 +11,7 @@ from shapewright.prediction.predictor import Predictor
 from shapewright.progress import Stages
 from shapewright.references import Collection
 from shapewright.settings import Searching
-from shapewright.shapes import Drawing, Mesh, ReferenceShape, Shape
+from shapewright.shapes import Drawing, Mesh, ReferenceShape, Shape, Views
 from shapewright.threads import in_threads
 
 _CLEARLY = 0.9
@@ -23,10 +23,10 @@ def quarter_turns(
 ) -> list[int]:
     """How many quarter turns, 0 to 3, bring each reference to face as the procedure's shapes do.
 
-    Each mesh is predicted and built in all four positions; the costs of the replicas decide. Drawings are not turned.
-    Nothing is turned where the settings take the facing as given.
+    Each mesh is predicted and built in all four positions; the costs of the replicas decide. Drawings and
+    views are not turned, and nothing where the settings take the facing as given.
     """
-    if settings.facing == "given" or references.kind is not Mesh:
+    if settings.facing == "given" or references.kind is not Mesh or references.in_views:
         return [0] * len(references)
     stages.begin("face", len(references))
     positions = [references.turned([quarters] * len(references)) for quarters in range(4)]
@@ -41,7 +41,7 @@ def _costs(references: Collection, predictor: Predictor, crew: Workers) -> list[
 
     def cost(pair: tuple[ReferenceShape, Shape | None]) -> float:
         reference, replica = pair
-        if isinstance(reference, Drawing) or not isinstance(replica, Mesh):
+        if isinstance(reference, Drawing | Views) or not isinstance(replica, Mesh):
             return np.inf
         return PosedDifference(reference)(replica) if isinstance(reference, Mesh) else scan_cost(reference, replica)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from shapewright.building import Workers
 from shapewright.fitting.facing import quarter_turns
 from shapewright.fitting.learning import learn, learn_more
+from shapewright.fitting.pictures import suited
 from shapewright.fitting.replicas import replicate, resume
 from shapewright.fitting.results import judged, recorded
 from shapewright.fitting.start import Start, for_procedure
@@ -35,7 +36,7 @@ def fit(
 
     Args:
         procedure: the author's.
-        references: the shapes to replicate.
+        references: the shapes to replicate. Pictures are views of objects where the procedure builds meshes.
         settings: how the iteration runs; the defaults are made for laptops.
         progress: called with a Progress a few times a second; ``print`` will do. Within seconds one holds an answer.
         cache: a folder that keeps the references' descriptors between iterations.
@@ -45,11 +46,13 @@ def fit(
 
     Raises:
         ProcedureError: the procedure cannot build shapes.
+        CollectionError: no picture can be read as one of an object.
     """
     settings, stages = settings or Settings(), Stages(progress)
     references = for_procedure(references, procedure)
-    start = Start.of(references, procedure.space, previous, known)
     with Workers.of(procedure, settings) as crew:
+        references = suited(references, crew)
+        start = Start.of(references, procedure.space, previous, known)
         lesson = learn(crew, settings, stages, start)
         turns = quarter_turns(references, lesson.predictor, crew, settings, stages)
         stages.begin("describe", len(references))

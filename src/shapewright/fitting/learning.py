@@ -22,10 +22,11 @@ from shapewright.prediction.predictor import Predictor
 from shapewright.prediction.scanning import scanned
 from shapewright.prediction.training import Epoch, Schedule, train_network
 from shapewright.prediction.vgg import VGG19Network, find_weights
+from shapewright.prediction.views.silhouettes import redrawn, view_dataset
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
-from shapewright.rendering.cameras import PAGE, Camera, starting_views
-from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, Budget
+from shapewright.rendering.cameras import ANYWHERE, PAGE, Camera, starting_views
+from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, VIEWED, VIEWED_THOROUGH, Budget
 from shapewright.settings import Searching, Settings
 from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape, Shape, extent_of
 
@@ -44,10 +45,14 @@ class Lesson:
 
     def budget(self, settings: Searching) -> Budget:
         """How long to refine: what the settings say, or less where a shape takes long to build."""
-        drawn = self.training.kind is Drawing
-        budget, seconds = DRAWN if drawn else QUICK, settings.refine_seconds
+        quick, thorough = QUICK, THOROUGH
+        if self.training.kind is Drawing:
+            quick, thorough = DRAWN, DRAWN_THOROUGH
+        elif self.training.cameras == (ANYWHERE,):
+            quick, thorough = VIEWED, VIEWED_THOROUGH
+        budget, seconds = quick, settings.refine_seconds
         if settings.refine == "thorough":
-            budget, seconds = DRAWN_THOROUGH if drawn else THOROUGH, 10.0 * settings.refine_seconds
+            budget, seconds = thorough, 10.0 * settings.refine_seconds
         evaluations = seconds / max(self.facts["build_seconds"], 1e-6)
         return budget.within(evaluations, int(self.predictor.space.scalars.sum()))
 
@@ -77,12 +82,12 @@ def learn(crew: Workers, settings: Settings, stages: Stages, start: Start | None
     vectors = space.sample(count, seed=settings.seed)
     stages.begin("sample", len(vectors))
     builds = crew.build(vectors[:FIRST], give_up=True)
-    kind = (
-        start.references.kind
-        if start
-        else next((type(build.shape) for build in builds if build.shape is not None), Mesh)
-    )
+    kind: type[Shape] = next((type(build.shape) for build in builds if build.shape is not None), Mesh)
+    if start:
+        kind = start.references.kind
     cameras = _cameras(kind, settings, previous)
+    if start and start.references.in_views:
+        cameras = (ANYWHERE,)
     first = _draw(crew.procedure, builds, cameras, settings, kind)
     if start and not start.resumed:
         stages.answer(start.most_similar(first, settings.workers), "most similar samples")
@@ -141,7 +146,7 @@ def _train(
     previous: Predictor | None,
 ) -> Lesson:
     training, validation, held_out = parts
-    if training.kind is Drawing:
+    if training.kind is Drawing or training.cameras == (ANYWHERE,):
         schedule = replace(schedule, camera_rate=0.0)
     stages.begin("train", schedule.epochs)
 
@@ -149,8 +154,12 @@ def _train(
         losses = {name: value if math.isfinite(value) else None for name, value in vars(epoch).items()}
         stages.step(epoch.epoch, schedule.epochs, f"validation loss {epoch.validation:.3f}", losses)
 
+    def redraw(data: Dataset, epoch: int) -> Dataset:
+        return redrawn(data, np.random.default_rng([settings.seed, epoch]), settings.workers)
+
     initial = previous.network if previous else None
-    trained = train_network(space, training, validation, schedule, tell, settings.workers, initial)
+    again = redraw if training.cameras == (ANYWHERE,) else None
+    trained = train_network(space, training, validation, schedule, tell, settings.workers, initial, again)
     training, validation, held_out = (part.seen_by(trained.cameras, settings.workers) for part in parts)
     network, cameras, size = trained.network, trained.cameras, settings.image_size
     metrics, samples = measure(network, space, held_out), sum(map(len, parts))
@@ -162,6 +171,8 @@ def _train(
 
 def _cameras(kind: type[Shape], settings: Settings, previous: Predictor | None) -> tuple[Camera, ...]:
     """Those of the previous predictor, where it has as many."""
+    if previous and previous.cameras == (ANYWHERE,):
+        previous = None
     if kind is not Drawing and previous and len(previous.cameras) == settings.views:
         return previous.cameras
     return (PAGE,) if kind is Drawing else starting_views(settings.views, settings.camera_distance)
@@ -171,10 +182,12 @@ def _draw(
     procedure: Procedure, builds: Sequence[Build], cameras: Sequence[Camera], settings: Settings, kind: type[Shape]
 ) -> Dataset:
     good, shapes = shapes_of(builds, kind)
+    vectors, size = [build.parameters for build in good], settings.image_size
+    if tuple(cameras) == (ANYWHERE,):
+        return view_dataset(procedure.space, vectors, shapes, size, settings.seed, settings.workers)
     sides = None
     if procedure.facts.size == "given":
         sides = [extent_of(build.shape) for build in good if build.shape is not None]
-    vectors, size = [build.parameters for build in good], settings.image_size
     return make_dataset(procedure.space, vectors, shapes, cameras, size, settings.workers, sides)
 
 
@@ -201,4 +214,4 @@ def _schedule(settings: Settings, previous: Predictor | None) -> Schedule:
 
 def _places(cameras: Sequence[Camera]) -> list[list[float]]:
     """Azimuth and elevation in degrees, and distance, of every camera that can be moved."""
-    return [[camera.azimuth, camera.elevation, camera.distance] for camera in cameras if camera != PAGE]
+    return [[camera.azimuth, camera.elevation, camera.distance] for camera in cameras if camera not in (PAGE, ANYWHERE)]

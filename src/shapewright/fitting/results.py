@@ -51,9 +51,10 @@ def judged(
             error=_error(build, its.distance),
             missing=seen.missing,
             surplus=seen.surplus,
+            places=places,
         )
-        for reference, build, its, seen, grade, same in zip(
-            judge.references, builds, measures, replicas.evidence, grades, compatible, strict=True
+        for reference, build, its, seen, grade, same, places in zip(
+            judge.references, builds, measures, replicas.evidence, grades, compatible, judge.places(builds), strict=True
         )
     )
     return results, groups
@@ -93,6 +94,7 @@ def recorded(
             "origins": list(references.origins),
             "up": references.up,
             "front": references.front,
+            "pictures": references.pictures,
             "count": len(references),
             "skipped": {printable(path): reason for path, reason in references.skipped.items()},
         },

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,8 +18,8 @@ from shapewright.judging.verdict import Evidence, Region
 from shapewright.rendering.ink import HALF, coverage
 from shapewright.shapes import Drawing, Floats, Shape
 
-_SIDE = 160  # pixels along a picture
-_PIXEL = 2.0 * HALF / _SIDE  # in largest extents, as all lengths
+PAGE = 160  # pixels along a picture
+_PIXEL = 2.0 * HALF / PAGE  # in largest extents, as all lengths
 _INK = 0.2  # least share of a pixel that is ink to the other drawing: a line of 0.2 % counts, a gap as narrow does not
 _FROM, _FAR = 0.01, 0.02  # ink farther than this from the other's is a region; as far as this it is unexplained
 _SLIVER = 5e-4  # area of a region that nobody sees: 1 % of the extent wide, 5 % long
@@ -58,30 +59,35 @@ class DrawnFidelity:
     """A reference, described when it is first needed; any thread may ask."""
 
     def __init__(self, reference: Drawing) -> None:
-        self._seen = functools.cache(functools.partial(_Seen, reference))
+        self._seen = functools.cache(functools.partial(Seen.of, reference))
 
     def evidence(self, replica: Shape | None) -> Evidence:
         """What there is to say of a replica; a value of NaN where the two cannot be compared."""
         if not isinstance(replica, Drawing):
             return Evidence(math.nan)
-        found = self._beside(replica)
-        return Evidence(found[0].value, *(tuple(sorted(r, key=lambda region: -region.size)) for r in found[1:]))
+        likeness, *found = beside(self._seen(), Seen.of(replica))
+        return Evidence(likeness.value, *(largest_first(regions) for regions in found))
 
     def likeness(self, replica: Drawing) -> Likeness:
         """The evidence in numbers."""
-        return self._beside(replica)[0]
+        return beside(self._seen(), Seen.of(replica))[0]
 
-    def _beside(self, replica: Drawing) -> tuple[Likeness, list[Region], list[Region]]:
-        ours, its = self._seen(), _Seen(replica)
-        common = float(np.minimum(ours.ink, its.ink).sum())
-        missing, surplus = ours.without(its), its.without(ours)
-        likeness = Likeness(
-            iou=common / (ours.area + its.area - common),
-            depth=max(missing.depth, surplus.depth),
-            share=max(missing.share, surplus.share),
-            stretch=abs(ours.proportion - its.proportion),
-        )
-        return likeness, missing.regions, surplus.regions
+
+def beside(ours: Seen, its: Seen) -> tuple[Likeness, list[Region], list[Region]]:
+    """The reference beside the replica: in numbers, and the regions that are missing and surplus."""
+    common = float(np.minimum(ours.ink, its.ink).sum())
+    missing, surplus = ours.without(its), its.without(ours)
+    likeness = Likeness(
+        iou=common / (ours.area + its.area - common),
+        depth=max(missing.depth, surplus.depth),
+        share=max(missing.share, surplus.share),
+        stretch=abs(ours.proportion - its.proportion),
+    )
+    return likeness, missing.regions, surplus.regions
+
+
+def largest_first(regions: Iterable[Region]) -> tuple[Region, ...]:
+    return tuple(sorted(regions, key=lambda region: -region.size))
 
 
 @dataclass(frozen=True)
@@ -91,18 +97,22 @@ class _Unexplained:
     regions: list[Region]
 
 
-class _Seen:
-    """A drawing as a picture."""
+class Seen:
+    """A drawing, or a silhouette, as a picture."""
 
-    def __init__(self, drawing: Drawing) -> None:
-        self.ink = coverage(drawing, _SIDE)
-        self.area = float(self.ink.sum())
-        solid = self.ink > min(_INK, float(self.ink.max()) / 2.0)
+    def __init__(self, ink: Floats, proportion: float) -> None:
+        """ink: (PAGE, PAGE), the share of each pixel that is covered. proportion: log of the width for the height."""
+        self.ink, self.proportion = ink, proportion
+        self.area = float(ink.sum())
+        solid = ink > min(_INK, float(ink.max()) / 2.0)
         self.away = np.asarray(ndimage.distance_transform_edt(~solid)) * _PIXEL
-        (left, bottom), (right, top) = drawing.bounds
-        self.proportion = math.log((right - left) / (top - bottom))
 
-    def without(self, other: _Seen) -> _Unexplained:
+    @classmethod
+    def of(cls, drawing: Drawing) -> Seen:
+        (left, bottom), (right, top) = drawing.bounds
+        return cls(coverage(drawing, PAGE), math.log((right - left) / (top - bottom)))
+
+    def without(self, other: Seen) -> _Unexplained:
         """The connected pieces of ink that have none of the other drawing's near them."""
         far = (self.ink > 0.05) & (other.away > _FROM)
         labels, count = ndimage.label(far, np.ones((3, 3)))

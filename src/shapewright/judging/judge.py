@@ -20,19 +20,22 @@ from shapewright.judging.paper import Metric
 from shapewright.judging.scans.points_target import PointsTarget
 from shapewright.judging.target import Measures, Target
 from shapewright.judging.verdict import Evidence, Grade, Standing, Verdict, apart_of
+from shapewright.judging.views.view_target import ViewTarget
 from shapewright.references import Collection
 from shapewright.search.objective import Criterion, Measure, Objective, measure_of
 from shapewright.search.sizes import SizedObjective, likeness, parts_with_size
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Floats, Ints, Mesh, Points, ReferenceShape, Shape
+from shapewright.shapes import Drawing, Floats, Ints, Mesh, Points, ReferenceShape, Shape, Views
 from shapewright.shapes.conversion import as_reference, as_shape
 from shapewright.threads import in_threads
 
 Rows = Sequence[int] | Ints  # indices of references in their collection
 
 
-def target_of(shape: ReferenceShape, settings: Settings, cache: Path | None = None) -> Target:
-    """What replicas are measured against; cache: a folder that keeps descriptors of meshes."""
+def target_of(shape: ReferenceShape, settings: Settings, cache: Path | None = None, most: int = 1) -> Target:
+    """What replicas are measured against. cache: a folder that keeps descriptors. most: see ``ViewTarget``."""
+    if isinstance(shape, Views):
+        return ViewTarget(shape, settings, most)
     if isinstance(shape, Points):
         return PointsTarget(shape, settings)
     return MeshTarget(shape, settings, cache) if isinstance(shape, Mesh) else DrawingTarget(shape, settings)
@@ -42,8 +45,9 @@ def fidelity(replica: Any, reference: Any, settings: Settings | None = None) -> 
     """How likely a person calls a replica the same as its reference, and where the two differ.
 
     Both are what a procedure may return, and are compared as they stand, after normalisation: neither is turned or
-    mirrored. The reference may be points, too. settings: the cuts of the grades, and the judge that grades. Raises
-    TypeError for a drawing with another kind, ValueError for a shape that no picture shows.
+    mirrored. The reference may be points, too, or views of an object, which are compared from the cameras that suit
+    the replica best. settings: the cuts of the grades, and the judge that grades. Raises TypeError for a drawing with
+    another kind, ValueError for a shape that no picture shows.
     """
     replica, reference = as_shape(replica), as_reference(reference)
     if isinstance(replica, Drawing) != isinstance(reference, Drawing):
@@ -67,7 +71,9 @@ class Judge:
     @classmethod
     def of(cls, references: Collection, settings: Settings, cache: Path | None = None) -> Judge:
         """Describe the references; cache: a folder that keeps the descriptors of meshes."""
-        targets = tuple(target_of(reference.shape, settings, cache) for reference in references)
+        shapes = [reference.shape for reference in references]
+        most = max((len(shape) for shape in shapes if isinstance(shape, Views)), default=1)
+        targets = tuple(target_of(shape, settings, cache, most) for shape in shapes)
         in_threads(lambda target: target.visible, targets, settings.workers)
         return cls(references, targets, settings)
 
@@ -116,6 +122,16 @@ class Judge:
         found = in_threads(lambda pair: pair[0].evidence(pair[1].shape), pairs, self.settings.workers)
         same = self._likenesses([build.shape for build in builds], rows)
         return [replace(each, value=each.value * likely) for each, likely in zip(found, same, strict=True)]
+
+    def places(self, builds: Sequence[Build]) -> list[tuple[tuple[float, ...], ...]]:
+        """From where each build is seen in the views of its reference, see ``Result``; nothing for other references."""
+
+        def place(pair: tuple[Target, Build]) -> tuple[tuple[float, ...], ...]:
+            target, build = pair
+            found = target.in_view(build.shape) if isinstance(target, ViewTarget) else None
+            return tuple(map(tuple, found.places.tolist())) if found else ()
+
+        return in_threads(place, zip(self.targets, builds, strict=True), self.settings.workers)
 
     def measures(
         self, builds: Sequence[Build], distances: Floats, evidence: Sequence[Evidence] | None = None
@@ -170,8 +186,10 @@ class Judge:
         names = [self.references.names[i] for i in rows]
         left = None
         if replicas is not None and rows and self.settings.judge != "paper" and not self.settings.cut_absolute:
-            pairs_left = [(self.targets[i].shape, replicas[i]) for i in rows]
-            left = np.stack(in_threads(lambda pair: remainder(*pair), pairs_left, self.settings.workers))
+            shapes = [(self.targets[i].shape, replicas[i]) for i in rows]
+            pairs_left = [(shape, replica) for shape, replica in shapes if isinstance(shape, Mesh | Drawing)]
+            found = in_threads(lambda pair: remainder(*pair), pairs_left, self.settings.workers)
+            left = np.stack(found) if found else None
         return type(self.targets[0]).groups(names, self._targets(rows), self.settings, left)
 
     def _likenesses(self, shapes: Sequence[Shape | None], rows: Rows | None) -> list[float]:

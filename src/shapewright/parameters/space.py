@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.parameters.kinds import Integer, Parameter, Parameters, Scalar, Side, Value
+from shapewright.parameters.schema import schema_of
 
 End: TypeAlias = tuple[str, Side]  # the name of a parameter and an end of its Range
 
@@ -64,6 +65,10 @@ class ParameterSpace:
     def scalars(self) -> NDArray[np.bool_]:
         """(P,): which parameters are scalars."""
         return np.array([isinstance(parameter, Scalar) for parameter in self.parameters], dtype=bool)
+
+    def to_schema(self) -> dict[str, Any]:
+        """The space as a JSON Schema, see ``schema.schema_of``."""
+        return schema_of(self.parameters)
 
     @property
     def combinations(self) -> float:

@@ -10,6 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from shapewright.prediction.dataset import Dataset
+from shapewright.prediction.views.silhouettes import redrawn
+from shapewright.rendering.cameras import ANYWHERE
 from shapewright.rendering.raster import render
 from shapewright.shapes import Mesh
 
@@ -25,6 +27,8 @@ def augmented(data: Dataset, seed: int, threads: int | None = None) -> Dataset:
         return data
     rng = np.random.default_rng([seed, len(data)])
     shapes = [worn(shape, rng) if isinstance(shape, Mesh) else shape for shape in data.shapes]
+    if data.cameras == (ANYWHERE,):
+        return redrawn(replace(data, shapes=shapes), rng, threads)
     return replace(data, shapes=shapes, images=render(shapes, data.cameras, data.size, threads=threads))
 
 

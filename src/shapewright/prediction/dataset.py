@@ -66,7 +66,7 @@ def shapes_of(builds: Sequence[Build], kind: type[Shape]) -> tuple[list[Build], 
     if len(good) < min(10, len(builds)):
         built, wanted = ("drawings", "meshes") if kind is Mesh else ("meshes", "drawings")
         other = any(build.shape is not None and not isinstance(build.shape, kind) for build in builds)
-        why = f"it builds {built}, and references are {wanted}" if other else describe_failures(builds)
+        why = f"it builds {built}, and these references need {wanted}" if other else describe_failures(builds)
         message = f"only {len(good)} of {len(builds)} sampled shapes can be used: {why}"
         raise ProcedureError(message, None if other else commonest_place(builds), summary=True)
     return good, [build.shape.normalised() for build in good if build.shape is not None]
@@ -82,11 +82,15 @@ def make_dataset(
     extents: Sequence[float] | None = None,
 ) -> Dataset:
     """Render normalised shapes from every camera and encode their parameters."""
-    active = np.array([[name in set(space.active(values)) for name in space.names] for values in parameters])
-    targets = np.array([space.encode(values) for values in parameters], dtype=np.float32)
     images = render(shapes, cameras, size, threads=threads)
-    sizes = None if extents is None else np.array(extents, dtype=np.float32)
-    return Dataset(list(parameters), targets, active, images, list(shapes), tuple(cameras), sizes)
+    sides = None if extents is None else np.array(extents, dtype=np.float32)
+    return Dataset(list(parameters), *encoded(space, parameters), images, list(shapes), tuple(cameras), sides)
+
+
+def encoded(space: ParameterSpace, parameters: Sequence[Parameters]) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """(N, P) each: the targets of vectors, and whether each parameter matters there."""
+    active = np.array([[name in set(space.active(values)) for name in space.names] for values in parameters])
+    return np.array([space.encode(values) for values in parameters], dtype=np.float32), active
 
 
 def join(parts: Sequence[Dataset]) -> Dataset:

@@ -18,10 +18,14 @@ from shapewright.prediction.heads import SizeInput
 from shapewright.prediction.inference import Metrics, infer
 from shapewright.prediction.network import CompactNetwork, make_network
 from shapewright.prediction.training import Epoch
-from shapewright.rendering.cameras import PAGE, Camera
+from shapewright.prediction.views.silhouettes import joined
+from shapewright.rendering.cameras import ANYWHERE, PAGE, Camera
+from shapewright.rendering.framed import pictures_of
 from shapewright.rendering.raster import render
-from shapewright.shapes import Drawing, ReferenceShape, extent_of
+from shapewright.shapes import Drawing, Mesh, ReferenceShape, Views, extent_of
 from shapewright.storage import write_file
+
+_WORDS = {Drawing: "drawings", Views: "pictures of objects", Mesh: "meshes"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,14 +90,19 @@ class Predictor:
         extents: the longest side of each, for normalised shapes where sizes mean what they say; by default, and for
         None, that of the shape as it is.
 
-        Raises ValueError for meshes where it has learned from drawings, and the other way round.
+        Raises ValueError for shapes of another kind than it has learned from.
         """
-        drawn = self.cameras == (PAGE,)
-        if any(isinstance(shape, Drawing) != drawn for shape in shapes):
-            raise ValueError(f"this predictor has learned from {'drawings' if drawn else 'meshes'}; give it such")
-        images = render([shape.normalised() for shape in shapes], self.cameras, self.size, threads=self.threads)
+        kind = Views if self.cameras == (ANYWHERE,) else Drawing if self.cameras == (PAGE,) else Mesh
+        if any(_kind(shape) is not kind for shape in shapes):
+            raise ValueError(f"this predictor has learned from {_WORDS[kind]}; give it such")
+        objects = [shape for shape in shapes if isinstance(shape, Views)]
+        if objects:
+            images = np.stack([pictures_of(view, self.size) for some in objects for view in some.views])
+        else:
+            images = render([s.normalised() for s in shapes], self.cameras, self.size, threads=self.threads)
         with torch_threads(self.threads):
-            return infer(self.network, self.space, images, self._sides(shapes, extents))
+            prediction = infer(self.network, self.space, images, self._sides(shapes, extents))
+        return joined(prediction, [len(some) for some in objects]) if objects else prediction
 
     def _sides(
         self, shapes: Sequence[ReferenceShape], extents: Sequence[float | None] | None
@@ -103,3 +112,8 @@ class Predictor:
         given = extents or [None] * len(shapes)
         sides = [extent or extent_of(shape) for shape, extent in zip(shapes, given, strict=True)]
         return np.array(sides, dtype=np.float32)
+
+
+def _kind(shape: ReferenceShape) -> type[Mesh] | type[Drawing] | type[Views]:
+    """The kind of shapes to have learned from: meshes for points."""
+    return type(shape) if isinstance(shape, Drawing | Views) else Mesh

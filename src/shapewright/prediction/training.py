@@ -83,10 +83,12 @@ def train_network(
     progress: Callable[[Epoch], None] | None = None,
     threads: int | None = None,
     initial: nn.Module | None = None,
+    redraw: Callable[[Dataset, int], Dataset] | None = None,
 ) -> Trained:
     """Train a network on shapes as the dataset's cameras see them, and where they are learned, these cameras too.
 
-    initial: a network to start from, where its layers match by name and shape; the others start fresh.
+    initial: a network to start from, where its layers match by name and shape; the others start fresh. redraw: gives
+    the training rows other pictures before each epoch but the first, by the epoch's number.
 
     On a CPU every batch is computed as two fixed shards, each on its own thread, whose gradients are averaged: on few
     cores that is faster than torch's own threads, far more so when other programs are busy, and the result does not
@@ -116,6 +118,8 @@ def train_network(
         with ThreadPoolExecutor(min(threads, count), initializer=partial(torch.set_num_threads, each)) as pool:
             for epoch in range(1, schedule.epochs + 1):
                 network.train()
+                if redraw and epoch > 1:
+                    training = redraw(training, epoch)
                 losses: list[float] = []
                 for rows in np.array_split(rng.permutation(len(training)), batches):
                     through = cameras.cameras if epoch <= moving else None

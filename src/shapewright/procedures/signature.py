@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import inspect
+import linecache
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -126,10 +127,18 @@ def _hints(function: Callable[..., Any], wanted: Sequence[str], names: Mapping[s
     annotations = {name: hint for name, hint in _annotations(inner).items() if name in wanted}
     scope = {**getattr(inspect.getmodule(inner), "__dict__", {}), **getattr(inner, "__globals__", {})}
     try:
+        annotations = {n: _evaluated(h, scope, names) if isinstance(h, str) else h for n, h in annotations.items()}
         holder = types.SimpleNamespace(__annotations__=annotations)
         return typing.get_type_hints(holder, scope, dict(names), include_extras=True)
     except (NameError, TypeError, AttributeError, SyntaxError) as error:
         raise SignatureError(f"an annotation cannot be read: {error}") from error
+
+
+def _evaluated(text: str, scope: dict[str, Any], names: Mapping[str, Any]) -> Any:
+    """What an annotation that is text means. Its text is kept, so that a condition in it can be shown."""
+    place = f"<annotation {text}>"
+    linecache.cache[place] = (len(text), None, [text], place)
+    return eval(compile(text, place, "eval"), scope, {**names})
 
 
 def _annotations(inner: Any) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -14,10 +15,13 @@ from shapewright.references import sources
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.orientation import AxesBy, Orientation
 from shapewright.references.readers import formats as files
+from shapewright.references.readers.pictures import KINDS as PICTURES
+from shapewright.references.readers.views.reader import view_of
 from shapewright.references.reading import Readers
 from shapewright.references.reference import Reference, normalised
 from shapewright.references.scans.steps import Kept, kept
-from shapewright.shapes import Drawing, Mesh
+from shapewright.references.views import Pictures, as_views, joined
+from shapewright.shapes import Drawing, Mesh, Views
 from shapewright.shapes.conversion import as_reference
 from shapewright.storage import printable
 
@@ -28,7 +32,7 @@ _REASONS = 5
 class Collection:
     """The references to replicate, in natural order of their names: ``len``, iteration, ``refs["name"]``.
 
-    All are meshes or points, or all are drawings. Raises CollectionError for a mixture.
+    All are meshes or points, or all are drawings, or all are objects in views. Raises CollectionError for a mixture.
 
     Attributes:
         references: the shapes.
@@ -38,6 +42,7 @@ class Collection:
         up: the axis of the files that points up.
         front: the axis of the files that points to the front; None for the usual one.
         keep: what was left in points.
+        pictures: what pictures were read as.
     """
 
     references: tuple[Reference, ...]
@@ -47,9 +52,15 @@ class Collection:
     up: str = "y"
     front: str | None = None
     keep: tuple[Kept, ...] = ()
+    pictures: Pictures = "drawings"
 
     def __post_init__(self) -> None:
         drawings = [reference.name for reference in self if isinstance(reference.shape, Drawing)]
+        views = [reference.name for reference in self if isinstance(reference.shape, Views)]
+        if 0 < len(views) < len(self):
+            raise CollectionError(
+                f"{len(views)} objects in views ({views[0]}, ...) among other shapes in one collection; load one kind"
+            )
         if 0 < len(drawings) < len(self):
             raise CollectionError(
                 f"{len(self) - len(drawings)} meshes or points and {len(drawings)} drawings ({drawings[0]}, ...) in "
@@ -64,6 +75,7 @@ class Collection:
         up: str = "y",
         front: str | None = None,
         keep: Iterable[str] = (),
+        pictures: Pictures = "drawings",
     ) -> Collection:
         """Read a collection from a folder, an archive, a glob pattern, a CSV manifest, a file, or a list of these.
 
@@ -79,12 +91,17 @@ class Collection:
             front: the axis that points to the front; by default z, or -y where up is z or -z, as in Blender and CAD.
             keep: what is left in points, of floor, density and strays: see docs/howto.md. By default a floor is taken
                 off, points are left out where they are much denser than elsewhere, and so are stray ones.
+            pictures: whether pictures are drawings, or views of objects for a procedure that makes meshes. Where no
+                file is a drawing, as with photographs, they are views.
         """
         origins = [source] if isinstance(source, str | os.PathLike) else list(source)
         references: list[Reference] = []
         skipped: dict[Path, str] = {}
         steps = kept(keep)
         found = sources.find(origins, up, front, steps)
+        if pictures == "views":
+            found = as_views(found)
+        files_read = []
         with Readers() as readers:
             results = readers.read(found)
         for file, result in zip(found, results, strict=True):
@@ -92,11 +109,17 @@ class Collection:
                 skipped[file.place] = printable(str(result))
             else:
                 references.append(result)
+                files_read.append(file)
+        if pictures == "views":
+            references = joined(files_read, references)
+        elif not references and any(file.path.suffix.lower() in PICTURES for file in found):
+            with contextlib.suppress(CollectionError):
+                return cls.load(origins, up=up, front=front, keep=steps, pictures="views")
         if not references:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
         again = tuple(str(Path(origin).expanduser().absolute()) for origin in origins)
-        return cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front, steps)
+        return cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front, steps, pictures)
 
     @classmethod
     def of(
@@ -113,6 +136,16 @@ class Collection:
         names, steps = sorted(shapes, key=sources.natural_key), kept(keep)
         references = [_in_memory(name, shapes[name], orientation, by, steps) for name in names]
         return cls(tuple(references), keep=steps)
+
+    def as_views(self) -> Collection:
+        """The references as objects in pictures, for a procedure that makes meshes; files are read again.
+
+        Drawings in memory are silhouettes. Raises CollectionError where nothing can be read so.
+        """
+        if self.origins:
+            return Collection.load(self.origins, up=self.up, front=self.front, keep=self.keep, pictures="views")
+        shapes = [(r, Views((view_of(r.shape),)) if isinstance(r.shape, Drawing) else r.shape) for r in self]
+        return replace(self, references=tuple(replace(r, shape=shape) for r, shape in shapes), pictures="views")
 
     def turned(self, quarters: Sequence[int]) -> Collection:
         """The collection with every reference turned about the up axis: see ``Reference.turned``."""
@@ -137,8 +170,13 @@ class Collection:
 
     @property
     def kind(self) -> type[Mesh] | type[Drawing]:
-        """What a procedure has to make: drawings for drawings, meshes for meshes and points."""
+        """What a procedure has to make: drawings for drawings, meshes for all else."""
         return Drawing if isinstance(self.references[0].shape, Drawing) else Mesh
+
+    @property
+    def in_views(self) -> bool:
+        """Whether the references are objects in pictures, see ``Views``."""
+        return isinstance(self.references[0].shape, Views)
 
     @property
     def names(self) -> tuple[str, ...]:

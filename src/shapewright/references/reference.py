@@ -17,7 +17,7 @@ from shapewright.references.readers import formats as files
 from shapewright.references.scans.cleaning import cleaned
 from shapewright.references.scans.floor import up_by_floor
 from shapewright.references.scans.steps import Kept
-from shapewright.shapes import Drawing, Floats, Mesh, Points, ReferenceShape, Transform, shape_digest
+from shapewright.shapes import Drawing, Floats, Mesh, Points, ReferenceShape, Transform, Views, shape_digest
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +28,7 @@ class Reference:
         name: unique in its collection.
         path: its file, of one in an archive the paths of the archive and inside of it; None for a shape made in memory.
         shape: the mesh or points, Y up, front towards +Z, or the drawing; the bounding box is centred and its largest
-            side is 1.
+            side is 1. Or the object in views.
         transform: how it was centred and scaled, after it was turned.
         orientation: how a mesh or points were turned.
         notes: what of the file was left out.
@@ -63,19 +63,22 @@ class Reference:
     def to_original(self, points: ArrayLike) -> Floats:
         """Points (..., 3), of a drawing (..., 2), in the frame of ``shape``, back in the file's own units and axes."""
         original = self.transform.invert(points)
-        return original if isinstance(self.shape, Drawing) else self.orientation.invert(original)
+        return original if isinstance(self.shape, Drawing | Views) else self.orientation.invert(original)
 
     def sized(self, metres: float | None) -> Reference:
         """With the extent of its file, in a unit of so many metres.
 
         A file that states no unit has the procedure's, and a procedure that has none takes the numbers of the file.
+        Views of an object have no size in space.
         """
+        if isinstance(self.shape, Views):
+            return self
         side = float(self.size.max())
         return replace(self, extent=side / (metres or self.unit or 1.0) if self.unit else side)
 
     def standing(self, up: str) -> Reference:
         """Turned for this axis of its file to point up, where neither its author nor its format says which one does."""
-        if isinstance(self.shape, Drawing) or self.axes_by != "default" or self.orientation != Orientation():
+        if isinstance(self.shape, Drawing | Views) or self.axes_by != "default" or self.orientation != Orientation():
             return self
         orientation = Orientation.of(up)
         transform = Transform(tuple(orientation.matrix @ self.transform.centre), self.transform.scale)
@@ -85,9 +88,9 @@ class Reference:
     def turned(self, quarters: int) -> Reference:
         """The same shape after a number of quarter turns about the up axis, from the front towards the right.
 
-        A drawing stays as it is.
+        A drawing stays as it is, and so do views.
         """
-        if isinstance(self.shape, Drawing):
+        if isinstance(self.shape, Drawing | Views):
             return self
         turn = QUARTER_TURNS[quarters % 4]
         transform = Transform(tuple(turn @ self.transform.centre), self.transform.scale)
@@ -106,6 +109,8 @@ class Reference:
                 size = f"{len(self.shape)} points"
             case Drawing():
                 size = "drawing"
+            case Views():
+                size = f"{len(self.shape)} views" if len(self.shape) > 1 else "1 view"
         return f"Reference({self.name!r}, {size})"
 
 
@@ -113,7 +118,7 @@ def read_reference(source: sources.Source) -> Reference:
     """One file of those that ``sources.find`` lists. Raises UnreadableError, with the reason."""
     if source.refusal:
         raise UnreadableError(source.refusal)
-    found = files.contents(source.path)
+    found = files.contents(source.path, source.view, source.mask)
     by_format = found.up is not None and not source.by_author
     orientation = Orientation.of(found.up) if found.up and by_format else source.orientation
     by: AxesBy = "author" if source.by_author else "format" if by_format else "default"
@@ -138,7 +143,7 @@ def normalised(
     if isinstance(shape, Points) and by == "default" and "floor" not in keep and (up := up_by_floor(shape.positions)):
         notes = (*notes, *(() if up == orientation.up else (f"{up} points up: the floor says so",)))
         orientation, by = orientation if up == orientation.up else Orientation.of(up), "floor"
-    turned = shape if isinstance(shape, Drawing) else shape.transformed(orientation.matrix)
+    turned = shape if isinstance(shape, Drawing | Views) else shape.transformed(orientation.matrix)
     if isinstance(turned, Points):
         turned, told = cleaned(turned, keep)
         notes = (*notes, *told)

@@ -20,6 +20,7 @@ from shapewright.references.orientation import Orientation
 from shapewright.references.other_kinds import refusal
 from shapewright.references.readers.formats import CLOUDS, EXTENSIONS, MESHES
 from shapewright.references.readers.pictures import KINDS as PICTURES
+from shapewright.references.readers.views.masks import masks_of
 from shapewright.references.scans.steps import Kept, kept
 from shapewright.storage import printable
 
@@ -48,6 +49,9 @@ class Source:
         refusal: why it is not read, where that is known by its name or place; else None.
         by_author: whether the author says which axes these are. Else a format that says so itself knows better.
         keep: what is left in points, see ``scans.steps``.
+        view: whether a picture is one of an object; else it is a drawing.
+        mask: a picture of which part of it is the object, white where that is; None where nobody says.
+        object: the object that it shows, which other pictures may show as well; None where it is alone.
     """
 
     name: str
@@ -58,6 +62,9 @@ class Source:
     refusal: str | None = None
     by_author: bool = False
     keep: tuple[Kept, ...] = ()
+    view: bool = False
+    mask: Path | None = None
+    object: str | None = None
 
     @property
     def place(self) -> Path:
@@ -71,10 +78,10 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None, kee
     A folder gives the files in it and in all folders below, but those that this program wrote there: runs and samples.
     Beside meshes pictures are textures and previews, and are left out. A ``.zip`` or ``.tar`` file, packed or not, is
     read as a folder. A pattern is a glob, ``**`` included. A ``.csv`` file is a manifest with a column ``path``,
-    relative to the manifest, and if wanted the columns ``name``, ``up`` and ``front``; for an empty cell the argument
-    holds. Hidden files are left out. Shapes of a kind that is not read have their refusal; other files are left out.
-    A name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj`` (ShapeNet). Where names clash
-    the path takes its place. Raises CollectionError where there is nothing to read.
+    relative to the manifest, and if wanted the columns ``name``, ``up``, ``front`` and ``object``; for an empty cell
+    the argument holds. Hidden files are left out. Shapes of a kind that is not read have their refusal; other files are
+    left out. A name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj`` (ShapeNet). Where
+    names clash the path takes its place. Raises CollectionError where there is nothing to read.
     """
     default, by_author = Orientation.of(up, front), is_authors(up, front)
     if not origins:
@@ -89,6 +96,8 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None, kee
                 sources += [replace(source, by_author=by_author) for source in found]
     except OSError as error:
         raise CollectionError(f"cannot look into {error.filename}: {error.strerror}") from error
+    masks = masks_of([source.path for source in sources])
+    sources = [replace(one, mask=masks.get(one.path)) for one in sources if one.path not in masks.values()]
     places = [Path(printable(one.place)) for one in sources]
     names = _unique([printable(one.name) for one in sources], places)
     steps = kept(keep)
@@ -226,7 +235,8 @@ def _in_manifest(manifest: Path, up: str, front: str | None) -> list[Source]:
         except CollectionError as error:
             raise CollectionError(f"{path}, as the manifest lists it: {error}") from error
         said = is_authors(up, front) or bool(cells.get("up") or cells.get("front"))
-        sources.append(Source(cells.get("name") or _stem(path), path, orientation, by_author=said))
+        name, shown = cells.get("name") or _stem(path), cells.get("object") or None
+        sources.append(Source(name, path, orientation, by_author=said, object=shown))
     if not sources:
         raise CollectionError(f"{manifest} lists no files; give each a line with its path")
     return sources

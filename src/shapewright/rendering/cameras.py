@@ -49,6 +49,9 @@ class Camera:
 THREE_VIEWS = (Camera(35.0, 25.0), Camera(0.0, 5.0), Camera(90.0, 15.0))
 """Three-quarter, front and side, each from a little above."""
 PAGE = Camera(0.0, 0.0)  # the camera of drawings: there is one picture of them, and it is never moved
+ANYWHERE = Camera(
+    0.0, 20.0
+)  # stands for the cameras of pictures of which nobody knows where these were, see ``anywhere``
 THUMBNAIL = Camera(35.0, 25.0, distance=3.6, field_of_view=27.5)
 """The three-quarter view, in which a ball of radius 0.856 about the origin fills the picture."""
 

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from shapewright.rendering import point_pictures
 from shapewright.rendering.cameras import THREE_VIEWS, Camera, pack
+from shapewright.rendering.framed import pictures_of
 from shapewright.rendering.ink import picture
-from shapewright.shapes import Bytes, Floats, Ints, Mesh, Points, ReferenceShape
+from shapewright.shapes import Bytes, Floats, Ints, Mesh, Points, ReferenceShape, Views
 from shapewright.threads import in_threads
 
 Singles = NDArray[np.float32]
@@ -47,6 +48,8 @@ def render(
             _draw(shape.vertices, shape.faces, packed, size, supersample, images[i])
         elif isinstance(shape, Points):
             images[i] = point_pictures.pictures(shape, cameras, size, supersample)
+        elif isinstance(shape, Views):
+            images[i] = pictures_of(shape.views[0], size)
         else:
             images[i] = picture(shape, size, supersample)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,11 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from shapewright.rendering import ink, splats
+from shapewright.rendering.anywhere import camera_at
 from shapewright.rendering.cameras import THUMBNAIL, Camera
 from shapewright.rendering.raster import AMBIENT, view
-from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape
+from shapewright.shapes import Drawing, Floats, Mesh, Points, ReferenceShape, Views
+from shapewright.shapes.views import REACH
 from shapewright.threads import in_threads
 
 SUPERSAMPLE = 3  # samples of a pixel along either side
@@ -28,6 +31,7 @@ _DARKEST, _INK = 0.42, 0.4
 DRAWN = 0.75
 """Part of the side of a thumbnail that the page of a drawing takes; around it is a margin."""
 _GREYS = 32  # fewer greys make smaller files, and nobody can tell 32 from 256 on flat faces
+_FAINT = 0.2  # of what was taken for the background of a picture
 _PLAIN = 150  # the grey of drawings, of 255: light enough for a tint over it to show
 
 
@@ -35,18 +39,71 @@ def thumbnail(shape: ReferenceShape, size: int = 256, camera: Camera = THUMBNAIL
     """A picture of a shape as PNG bytes: grey and alpha, size x size pixels; a mesh or points as a camera sees
     them, points as discs and without edges.
 
+    Of an object in views their pictures are shown, in colours, with what was taken for background faint.
+
     The shape is normalised first, so that the whole of it is in the picture whatever its size and place.
     Raises ValueError for a mesh without faces, and for a shape of no size.
     """
-    picture = _plain(shape, size) if isinstance(shape, Drawing) else _shaded(shape, size, camera)
-    buffer = io.BytesIO()
-    Image.fromarray(picture).save(buffer, "PNG")
-    return buffer.getvalue()
+    if isinstance(shape, Views):
+        return _png(_pictures(shape, size))
+    return _png(Image.fromarray(_plain(shape, size) if isinstance(shape, Drawing) else _shaded(shape, size, camera)))
+
+
+def seen_from(mesh: Mesh, places: Sequence[Floats], size: int = 256) -> bytes:
+    """A mesh from each place (3,) of ``anywhere``, shown as ``thumbnail`` shows an object in as many views."""
+    normal, side = mesh.normalised(), _side(len(places), size)
+    return _png(_tiled([_framed(normal, np.asarray(place), side) for place in places], size))
 
 
 def thumbnails(shapes: Sequence[ReferenceShape], size: int = 256, threads: int | None = None) -> list[bytes]:
     """``thumbnail`` of each shape, in order; the bytes do not depend on the number of threads."""
     return in_threads(lambda shape: thumbnail(shape, size), shapes, threads)
+
+
+def _png(picture: Image.Image) -> bytes:
+    buffer = io.BytesIO()
+    picture.save(buffer, "PNG")
+    return buffer.getvalue()
+
+
+def _pictures(shape: Views, size: int) -> Image.Image:
+    tiles = []
+    for each in shape.views:
+        colours = np.full((*each.mask.shape, 3), _PLAIN, np.uint8) if each.picture is None else each.picture
+        faint = 0.0 if each.picture is None else _FAINT
+        alpha = (each.mask * (1.0 - faint) + 255.0 * faint).astype(np.uint8)
+        side = _side(len(shape), size)
+        tiles.append(Image.fromarray(np.dstack([colours, alpha])).resize((side, side), Image.Resampling.BOX))
+    return _tiled(tiles, size)
+
+
+def _framed(normal: Mesh, place: Floats, size: int) -> Image.Image:
+    """A normalised mesh from a place, its box where that of a view is."""
+    camera = camera_at(place)
+    right, up, towards = camera.frame() @ normal.triangles.reshape(-1, 3).T
+    flat = np.stack([right, -up]) / (camera.distance - towards)
+    low, high = flat.min(axis=1), flat.max(axis=1)
+    middle, half = (low + high) / 2.0, float((high - low).max()) / (2.0 * REACH)
+    reach = float(np.abs(middle).max()) + half  # of a picture that holds the whole
+    camera = replace(camera, field_of_view=math.degrees(2.0 * math.atan(reach)))
+    wide = Image.fromarray(_shaded(normal, 2 * size, camera))
+    box = (np.concatenate([middle - half, middle + half]) / reach + 1.0) * size
+    left, top, right, bottom = box.clip(0.0, 2.0 * size).tolist()
+    return wide.resize((size, size), Image.Resampling.BOX, (left, top, right, bottom)).convert("RGBA")
+
+
+def _side(count: int, size: int) -> int:
+    """Of each of so many pictures that share the page of a thumbnail."""
+    return int(size * DRAWN) // math.ceil(math.sqrt(count))
+
+
+def _tiled(pictures: Sequence[Image.Image], size: int) -> Image.Image:
+    """One picture as large as a drawing's page, or several beside each other in it."""
+    whole, corner = Image.new("RGBA", (size, size)), (size - int(size * DRAWN)) // 2
+    across = math.ceil(math.sqrt(len(pictures)))
+    for i, picture in enumerate(pictures):
+        whole.paste(picture, (corner + picture.width * (i % across), corner + picture.width * (i // across)))
+    return whole
 
 
 def _plain(drawing: Drawing, size: int) -> NDArray[np.uint8]:

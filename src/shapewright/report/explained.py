@@ -82,6 +82,8 @@ def outlines(reference: Mapping[str, Any]) -> tuple[list[str], list[str]]:
 def boxes(reference: Mapping[str, Any]) -> tuple[list[str], list[str]]:
     """The same of the regions that the judge found; entries of a run's record."""
     kinds = ("missing", "surplus")
+    if len(reference.get("places", ())) > 1:  # regions are those of the first picture, of several in a thumbnail
+        return [], []
     missing, surplus = (
         [_outline(_box(region), reference) for region in reference.get(kind, ())[:SHOWN]] for kind in kinds
     )
@@ -94,7 +96,7 @@ def _box(region: Mapping[str, Any]) -> Floats:
 
 
 def _outline(corners: Floats, reference: Mapping[str, Any]) -> str:
-    flat = (reference.get("replica") or "").endswith(".svg")
+    flat = (reference.get("replica") or "").endswith(".svg") or bool(reference.get("places"))
     return _frame(corners) if flat else _path(corners)
 
 

@@ -43,7 +43,8 @@ def references_of(iteration: Iteration, moved_to: str | None = None) -> Collecti
             f"shapewright.explain(iteration, procedure, references), or {again}"
         )
     try:
-        collection = Collection.load(origins, up=record.get("up", "y"), front=record.get("front"))
+        kept = {"up": record.get("up", "y"), "front": record.get("front")}
+        collection = Collection.load(origins, **kept, pictures=record.get("pictures", "drawings"))
     except CollectionError as error:
         raise RunError(f"the references cannot be loaded: {error}\nIf they were moved, {again}") from error
     lost = [name for name in iteration.names if name not in collection]

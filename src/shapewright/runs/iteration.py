@@ -11,19 +11,23 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from shapewright.comparison.grouping import Group
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import mean
 from shapewright.judging.verdict import Grade
 from shapewright.prediction.predictor import Predictor
-from shapewright.rendering.thumbnails import thumbnails
+from shapewright.rendering.thumbnails import seen_from, thumbnail, thumbnails
 from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
 from shapewright.runs.helpers import read_helpers, write_helpers
 from shapewright.runs.marks import worth_marking
 from shapewright.runs.result import MEASURES, Result, from_record, read_replica, replica_path, to_record
 from shapewright.settings import Settings
+from shapewright.shapes import Mesh
 from shapewright.shapes.files import encode
 from shapewright.storage import file_names
+from shapewright.threads import in_threads
 
 _AS_RECORDED = ("seconds", "procedure", "collection", "metrics", "versions", "created")
 Pictures = Mapping[str, tuple[bytes, bytes | None]]
@@ -217,11 +221,14 @@ class Iteration:
 def draw_pictures(results: Sequence[Result], threads: int | None = None) -> Pictures:
     """Thumbnails (PNG) of every reference and replica, by name."""
     references = thumbnails([r.reference for r in results if r.reference is not None], threads=threads)
-    replicas = iter(thumbnails([r.replica for r in results if r.replica is not None], threads=threads))
-    return {
-        result.name: (picture, next(replicas) if result.replica is not None else None)
-        for result, picture in zip(results, references, strict=True)
-    }
+
+    def replica(result: Result) -> bytes | None:
+        if isinstance(result.replica, Mesh) and result.places:
+            return seen_from(result.replica, [np.array(place) for place in result.places])
+        return None if result.replica is None else thumbnail(result.replica)
+
+    replicas = in_threads(replica, results, threads)
+    return dict(zip([result.name for result in results], zip(references, replicas, strict=True), strict=True))
 
 
 def _read_pictures(folder: Path, slug: str) -> tuple[bytes, bytes | None]:

@@ -13,7 +13,7 @@ from shapewright.judging.verdict import Grade, Region
 from shapewright.parameters import Parameters
 from shapewright.references.readers.svg import read_svg
 from shapewright.settings import JudgeName
-from shapewright.shapes import Mesh, Shape
+from shapewright.shapes import Mesh, ReferenceShape, Shape
 from shapewright.shapes.files import read_glb
 
 
@@ -36,6 +36,8 @@ class Result:
         error: why there is no replica.
         missing: regions of the reference without a counterpart, the largest first.
         surplus: regions of the replica without a counterpart, the largest first.
+        places: from where an object in views was seen, one for each: azimuth and elevation in degrees, and one over the
+            distance in largest extents. Empty for other references. Regions are those of the first view.
     """
 
     name: str
@@ -48,10 +50,11 @@ class Result:
     grade: Grade
     compatible: bool
     group: int | None
-    reference: Shape | None
+    reference: ReferenceShape | None
     error: str | None = None
     missing: tuple[Region, ...] = ()
     surplus: tuple[Region, ...] = ()
+    places: tuple[tuple[float, ...], ...] = ()
 
     @property
     def fidelity(self) -> float:
@@ -102,6 +105,7 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
         "grade": result.grade,
         "missing": [_region(region) for region in result.missing[:_KEPT]],
         "surplus": [_region(region) for region in result.surplus[:_KEPT]],
+        **({"places": [[round(x, 4) for x in place] for place in result.places]} if result.places else {}),
         "compatible": result.compatible,
         "group": result.group,
         "error": result.error,
@@ -122,6 +126,7 @@ def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
         grade=grade_in(entry),
         missing=tuple(_read_region(region) for region in entry.get("missing", ())),
         surplus=tuple(_read_region(region) for region in entry.get("surplus", ())),
+        places=tuple(map(tuple, entry.get("places", ()))),
         **{name: entry[name] for name in ("name", "parameters", "compatible", "group", "error")},
     )
 

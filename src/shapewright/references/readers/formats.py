@@ -32,7 +32,8 @@ from shapewright.references.readers.stl import read_stl
 from shapewright.references.readers.svg import read_svg
 from shapewright.references.readers.threemf.build import read_3mf
 from shapewright.references.readers.usd.scene import read_usd
-from shapewright.shapes import Drawing, Floats, Ints, Mesh, ReferenceShape
+from shapewright.references.readers.views.reader import read_view, view_of
+from shapewright.shapes import Drawing, Floats, Ints, Mesh, ReferenceShape, Views
 
 _POLYGONS: dict[str, Callable[[bytes], Polygons | Cloud]] = {
     ".obj": read_obj,
@@ -86,8 +87,10 @@ def read(path: Path) -> tuple[ReferenceShape, tuple[str, ...]]:
     return found.shape, found.notes
 
 
-def contents(path: Path) -> Contents:
+def contents(path: Path, view: bool = False, mask: Path | None = None) -> Contents:
     """The triangles of a file in one mesh, its points or its drawing; with notes on what was left out, its unit and up.
+
+    view: whether a picture is read as one of an object, a drawing as its silhouette. mask: see ``read_view``.
 
     Polygons are triangulated and scenes flattened. Names of parts and materials become labels; textures are ignored.
     Triangles stay unchanged, inward, doubled or flat. The reader leaves out vertices that no triangle uses and, with a
@@ -110,6 +113,12 @@ def contents(path: Path) -> Contents:
     if data.startswith(b"/annex/objects/"):
         raise UnreadableError(f"a pointer of git-annex, not the file itself; {_FETCH}")
     try:
+        if view and kind in PICTURES:
+            seen, notes = read_view(data, mask.read_bytes() if mask else None)
+            return Contents(Views((seen,)), notes)
+        if view and kind in _DRAWINGS:
+            drawing, notes = _DRAWINGS[kind](data)
+            return Contents(Views((view_of(drawing),)), notes)
         if kind in _DRAWINGS:
             return Contents(*_DRAWINGS[kind](data))
         if kind in _CLOUDS or kind in _CLOUD_FILES:

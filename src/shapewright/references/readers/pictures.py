@@ -5,7 +5,8 @@ from __future__ import annotations
 import io
 import math
 import warnings
-from typing import Any, TypeAlias, cast
+from collections.abc import Callable
+from typing import Any, TypeAlias, TypeVar, cast
 
 import numpy as np
 import shapely
@@ -35,6 +36,7 @@ JPEG reaches .05 of white and more beside lines. 12 bits stored as 16 use .06 of
 _RIM = 0.9
 """Share of the rim: where more of it is dark, the page is dark."""
 _Grey: TypeAlias = NDArray[Any]  # of whole numbers or float32
+_Taken = TypeVar("_Taken")
 
 
 def read_picture(data: bytes) -> tuple[Drawing, tuple[str, ...]]:
@@ -117,6 +119,12 @@ def _contours(darkness: NDArray[np.float32]) -> tuple[NDArray[np.float64], NDArr
 
 def _pixels(data: bytes) -> tuple[_Grey, float, tuple[str, ...]]:
     """The greys (H, W) of a picture, the value of white, and notes; what is transparent is white."""
+    (grey, white), notes = decoded(data, _greys)
+    return grey, white, notes
+
+
+def decoded(data: bytes, taken: Callable[[Any], _Taken]) -> tuple[_Taken, tuple[str, ...]]:
+    """What is taken of a picture as Pillow opens it, and notes. Raises UnreadableError where it cannot be opened."""
     from PIL import Image, UnidentifiedImageError
 
     with warnings.catch_warnings():
@@ -126,7 +134,7 @@ def _pixels(data: bytes) -> tuple[_Grey, float, tuple[str, ...]]:
             with Image.open(io.BytesIO(data), formats=_FORMATS) as image:
                 frames = getattr(image, "n_frames", 1)
                 notes = (f"the first of its {frames} pictures",) if frames > 1 else ()
-                return *_greys(image), notes
+                return taken(image), notes
         except UnidentifiedImageError as error:
             raise UnreadableError(f"holds {held(data)}, not a picture that is read") from error
         except (Image.DecompressionBombWarning, Image.DecompressionBombError) as error:

@@ -16,6 +16,7 @@ from shapewright.shapes.drawing import Drawing
 from shapewright.shapes.mesh import Mesh, concatenate
 from shapewright.shapes.points import Points
 from shapewright.shapes.shape import ReferenceShape, Shape
+from shapewright.shapes.views import Views
 
 _TABLES = (("vertices", "faces"), ("verts", "faces"), ("points", "faces"), ("vertices", "triangles"))
 """Names under which objects and dicts hold vertices and faces."""
@@ -23,10 +24,12 @@ _PAIR = "for one mesh return the tuple (vertices, faces)"
 
 
 def as_reference(value: Any) -> ReferenceShape:
-    """What ``as_shape`` gives, or points: of Points, or a point cloud of Open3D or trimesh.
+    """What ``as_shape`` gives, views as they are, or points: of Points, or a point cloud of Open3D or trimesh.
 
     Raises TypeError and ValueError as ``as_shape`` does.
     """
+    if isinstance(value, Views):
+        return value
     if (points := _points(value)) is None:
         return as_shape(value)
     if not points.extent.max() > 0.0:

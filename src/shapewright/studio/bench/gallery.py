@@ -10,6 +10,7 @@ from typing import Generic, TypeVar
 from shapewright.references.errors import UnreadableError
 from shapewright.references.reading import Readers
 from shapewright.references.reference import Reference
+from shapewright.references.views import as_views
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.shapes import Mesh, Points, ReferenceShape
 from shapewright.storage import remove_leftovers, whole_file
@@ -62,10 +63,21 @@ class Gallery:
         known = self._shelf.get(slug)
         if known:
             return known
-        (read,) = self._readers.read([self.listed.sources[slug]])
+        source = self.listed.sources[slug]
+        (read,) = self._readers.read([source])
+        if isinstance(read, UnreadableError):
+            reason = read
+            (read,) = self._readers.read(as_views([source]))  # a photograph is no drawing
+            if isinstance(read, UnreadableError):
+                raise reason
+        return self._shelf.put(slug, read)
+
+    def view(self, slug: str) -> Reference:
+        """The same reference as an object in a picture. Raises as ``[]`` does."""
+        (read,) = self._readers.read(as_views([self.listed.sources[slug]]))
         if isinstance(read, UnreadableError):
             raise read
-        return self._shelf.put(slug, read)
+        return read
 
     def picture(self, slug: str) -> bytes:
         """PNG of a reference, kept in the cache from now on. Raises as ``[]`` does."""

@@ -21,7 +21,7 @@ from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.splats import discs
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Mesh, Points, Shape
+from shapewright.shapes import Drawing, Mesh, Points, Shape, Views
 from shapewright.studio.bench import messages, shape_messages
 from shapewright.studio.bench.gallery import Gallery, Shelf, in_turn, shape_bytes
 from shapewright.studio.bench.residual_colours import ResidualColours
@@ -186,6 +186,16 @@ class Bench:
         except (KeyError, UnreadableError):
             return None
 
+    def _view(self, slug: Slug) -> Target | None:
+        """The target of a picture as one of an object; None for one that cannot be read so."""
+        try:
+            known = self._targets.get(f"{slug} in view")
+            return known or self._targets.put(
+                f"{slug} in view", target_of(self._gallery.view(slug).shape, self._settings)
+            )
+        except (KeyError, UnreadableError):
+            return None
+
     def _evaluate(self, client: int, request: Evaluate) -> None:
         """Answer in steps; the later ones are left out when something newer waits."""
         if not self._workshop.open:
@@ -220,6 +230,8 @@ class Bench:
             answer(shape_messages.drawing_message(replica, reference, **head))
         if slug is None or self._inbox.outdated:
             return
+        if target and isinstance(target.shape, Drawing) and isinstance(replica, Mesh):
+            target = self._view(slug)
         answer(shape_messages.verdict_message(target, replica, number, slug))
         if not request.residuals or self._inbox.outdated:
             return
@@ -247,6 +259,7 @@ class Bench:
             elif isinstance(shape, Points):
                 payload = shape_messages.mesh_message(discs(shape), id=0, slug=request.slug, shape="reference")
             else:
+                shape = shape_messages.silhouette(shape) if isinstance(shape, Views) else shape
                 message = shape_messages.drawing_message(shape, None, id=0, slug=request.slug, shape="reference")
         except (KeyError, UnreadableError, ValueError, Broken) as error:
             wrong = str(error)

@@ -10,8 +10,9 @@ import shapely
 
 from shapewright.judging.target import Measures, Target
 from shapewright.judging.verdict import Evidence
+from shapewright.references.readers.pictures import outline
 from shapewright.references.reference import Reference
-from shapewright.shapes import Drawing, Mesh, Shape
+from shapewright.shapes import Drawing, Mesh, Shape, Views
 from shapewright.studio.bench.residual_colours import LIMIT, Residual
 from shapewright.studio.bench.workshop import Built
 from shapewright.studio.wire.answers import (
@@ -60,6 +61,11 @@ def outcome(built: Built) -> dict[str, Any]:
         "units": Extent(size=(shape.bounds[1] - shape.bounds[0]).tolist()),
         "milliseconds": round(1000.0 * built.build.seconds, 2),
     }
+
+
+def silhouette(views: Views) -> Drawing:
+    """The object of the first view as a drawing."""
+    return Drawing(outline(views.views[0].mask.astype(np.float32) / np.float32(255.0))).normalised()
 
 
 def drawing_message(drawing: Drawing, reference: Drawing | None, **head: Any) -> DrawingMessage:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,12 +19,13 @@ PREDICTIONS = "predictions.json"
 """In a run's folder: what the network said of every reference before the search, and how sure it was."""
 
 
-def collection(origin: Origin) -> Collection:
-    """The references of a project, but for those that lead out of it. Raises CollectionError."""
+def collection(origin: Origin, suit: Callable[[Collection], Collection] = lambda whole: whole) -> Collection:
+    """The references of a project, but for those that lead out of it. suit: what they are to a procedure, see
+    ``fitting.pictures``. Raises CollectionError."""
     from shapewright.references import Collection
 
     listed = listing(origin)
-    whole = Collection.load(origin.source, up=origin.up, front=origin.front)
+    whole = suit(Collection.load(origin.source, up=origin.up, front=origin.front))
     outside = {path.absolute() for path in listed.skipped}
     inside = tuple(r for r in whole.references if r.path is None or r.path.absolute() not in outside)
     return replace(whole, references=inside, skipped={**whole.skipped, **listed.skipped})
@@ -33,6 +34,7 @@ def collection(origin: Origin) -> Collection:
 def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     """Fit as the request says and save the run."""
     from shapewright.fitting.fit import fit as iterate
+    from shapewright.fitting.pictures import suited_to
     from shapewright.procedures import load_procedure
     from shapewright.report import write_report
     from shapewright.runs.folder import next_run, previous_run, suggested_parameters
@@ -40,12 +42,12 @@ def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     from shapewright.settings import Settings
     from shapewright.storage import cache_folder, write_file
 
-    procedure, references = load_procedure(request["procedure"]), collection(Origin(**request["origin"]))
+    procedure, settings = load_procedure(request["procedure"]), Settings.from_record(request["settings"])
+    references = collection(Origin(**request["origin"]), lambda whole: suited_to(procedure, whole, settings))
     previous, known = None, None
     if request["previous"]:
         previous = Iteration.load(request["previous"])
         known = suggested_parameters(Path(request["previous"]), procedure.space.names)
-    settings = Settings.from_record(request["settings"])
     iteration = iterate(procedure, references, settings, reporter.progress, cache_folder(), previous, known)
     reporter.stage("save", 0, 1)
     folder = next_run(Path(request["runs"])).absolute()

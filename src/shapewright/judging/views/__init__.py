@@ -1,0 +1,1 @@
+"""Pictures of an object as references of meshes, each from the camera that suits a replica best."""

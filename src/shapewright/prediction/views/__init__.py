@@ -1,0 +1,1 @@
+"""Learning to predict from pictures of objects."""

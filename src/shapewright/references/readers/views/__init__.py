@@ -1,0 +1,1 @@
+"""Pictures of objects, read as views: what of them is the object."""
