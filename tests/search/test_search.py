@@ -290,3 +290,13 @@ def test_a_start_that_is_predicted_as_well_is_tried_once():
     height, width, _, cap = post.space.encode(known).astype(np.float32)
     start = predicted((height, width, SURE, cap))
     assert counted(start, post(), Budget((Scan(1),)), [known])[0] == 1
+
+
+def test_a_search_starts_from_what_is_given_beside_the_prediction_too():
+    truth = {"height": 1.8, "width": 0.9, "form": "round", "cap": 0.9}
+    start = predicted((0.1, 0.1, SURE, 0.1))
+    criterion = Criterion(measure_against([post(**truth)]))
+    with Workers(post, 1) as crew:
+        (found,) = refine(SearchStart(start, beside=[[truth]]), criterion, crew, Budget((Scan(2),)))
+        (without,) = refine(SearchStart(start), criterion, crew, Budget((Scan(2),)))
+    assert found == pytest.approx(truth) and without != pytest.approx(truth)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,10 @@ from shapewright.fitting.start import Start
 from shapewright.judging.judge import Judge
 from shapewright.judging.verdict import Evidence
 from shapewright.parameters import Parameters
+from shapewright.prediction.views.silhouettes import most_similar
 from shapewright.progress import Stages
 from shapewright.search.search import SearchStart, refine
-from shapewright.shapes import Floats, Ints
+from shapewright.shapes import Floats, Ints, Views
 
 _NEAR = 0.5
 """Parameters that are known already are not searched for again up to this share of the threshold, or of the way from a
@@ -100,6 +101,10 @@ def replicate(
         return replicas
     stages.begin("refine", 1)
     start = SearchStart(prediction.take(rows), [known[i] for i in rows], new)
+    if judge.references.in_views:
+        shown = [shape for i in rows if isinstance(shape := judge.references.references[i].shape, Views)]
+        similar = most_similar(shown, lesson.training, settings.seed, settings.workers)
+        start = replace(start, beside=similar)
     criterion = judge.criterion(rows, replicas.fields[rows])
     refined = refine(start, criterion, crew, lesson.budget(settings), settings.seed, stages.step)
     for i, values in zip(rows, refined, strict=True):

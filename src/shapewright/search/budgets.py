@@ -130,7 +130,7 @@ DRAWN_THOROUGH = Budget(
 # chairs of docs/benchmarks.md, "Pictures of objects".
 VIEWED = Budget(
     (
-        *(UseScale(1, keep=10), Scan(10), Probe(2), Step(2), UseScale(2, keep=2), Step(2)),
+        *(UseScale(1, keep=14), Scan(14), Probe(2), Step(2), UseScale(2, keep=2), Step(2)),
         *(SwitchChoices("single"), Scan(16), Probe(1), Step(1), Return(keep=1)),
         *(UseScale(3, keep=1), Probe(1, again=True), Step(1), Step(1), *(Step(1, scatter=2),) * 2),
     )

@@ -39,6 +39,7 @@ class SearchStart:
     prediction: Prediction
     known: Sequence[Parameters | None] | None = None  # for each reference parameters to start from as well, or None
     new: AbstractSet[str] | None = None  # scalars that are new or other than when the known ones were searched for
+    beside: Sequence[Sequence[Parameters]] | None = None  # for each reference more to start from
     within: tuple[Floats, Floats] | None = None  # the least and the greatest encoded scalars of each reference, (N, P)
 
 
@@ -109,6 +110,9 @@ def _begun(start: SearchStart, criterion: Criterion, budget: Budget, seed: int, 
     space, prediction, most = start.prediction.space, start.prediction, budget.combinations
     vectors = prediction.likeliest(row, most - budget.simple)
     vectors += [space.encode(space.defaults), *others(space, space.encode(space.defaults))][: budget.simple]
+    if start.beside:
+        more = [space.encode(values) for values in start.beside[row]]
+        vectors = [*vectors[:1], *more, *vectors[1:]][:most]
     candidates = [_candidate(start, criterion, budget, row, vector) for vector in vectors]
     if start.known and (given := start.known[row]) is not None:
         known = _candidate(start, criterion, budget, row, space.encode(given))

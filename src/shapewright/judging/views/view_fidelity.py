@@ -21,8 +21,8 @@ from shapewright.search.views.camera_search import ViewsDifference
 from shapewright.shapes import Bytes, Floats, Mesh, Shape
 from shapewright.shapes.views import SIDE, Views
 
-_WEIGHTS = np.array([1.0, 2.18, 0.94, -50.0])
-_BIAS = -10.94
+_WEIGHTS = np.array([2.82, 3.22, 1.4, -10.06])
+_BIAS = -19.67
 """Of ``Likeness.terms``."""
 
 

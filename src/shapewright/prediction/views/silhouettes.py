@@ -16,9 +16,13 @@ from shapewright.parameters import Parameters, ParameterSpace, Prediction
 from shapewright.prediction.dataset import Dataset, encoded
 from shapewright.rendering.anywhere import random_places
 from shapewright.rendering.cameras import ANYWHERE
-from shapewright.rendering.framed import framed
-from shapewright.shapes import Bytes, Floats, Mesh, ReferenceShape, Shape
+from shapewright.rendering.framed import framed, pictures_of
+from shapewright.shapes import Bytes, Floats, Mesh, ReferenceShape, Shape, Views
 from shapewright.threads import in_threads
+
+_PLACES, _COARSE = 8, 16
+"""Places from which each sample is seen, and pixels along the side of a picture, where similar ones are looked for."""
+_SIMILAR = 4  # samples that are told for each object
 
 
 def pictures_from(shapes: Sequence[ReferenceShape], places: Floats, size: int, threads: int | None) -> Bytes:
@@ -49,6 +53,28 @@ def view_dataset(
 def redrawn(data: Dataset, rng: np.random.Generator, threads: int | None = None) -> Dataset:
     """The same samples, each seen from another place."""
     return replace(data, images=pictures_from(data.shapes, random_places(len(data), rng), data.size, threads))
+
+
+def most_similar(
+    objects: Sequence[Views], data: Dataset, seed: int, threads: int | None = None
+) -> list[list[Parameters]]:
+    """For each object the parameters of the samples that look most like its first view, from somewhere."""
+    rng = np.random.default_rng([seed, len(data), 2])
+    places = random_places(_PLACES * len(data), rng).reshape(len(data), _PLACES, 3)
+
+    def draw(pair: tuple[ReferenceShape, Floats]) -> NDArray[np.float32]:
+        shape, several = pair
+        assert isinstance(shape, Mesh)
+        return (framed(shape, several, _COARSE).reshape(len(several), -1) / 255.0).astype(np.float32)
+
+    bank = np.concatenate(in_threads(draw, list(zip(data.shapes, places, strict=True)), threads))
+    squares = (bank**2).sum(axis=1)
+    found = []
+    for shown in objects:
+        coarse = pictures_of(shown.views[0], _COARSE)[0, 0].ravel() / np.float32(255.0)
+        order = np.argsort(squares - 2.0 * bank @ coarse, kind="stable")[: _PLACES * _SIMILAR] // _PLACES
+        found.append([data.parameters[row] for row in dict.fromkeys(order.tolist())][:_SIMILAR])
+    return found
 
 
 def joined(prediction: Prediction, counts: Sequence[int]) -> Prediction:

@@ -23,7 +23,7 @@ _COARSE, _SIZE = 16, 64
 """Pixels along the side of the pictures of the bank, and of those after it."""
 _STARTS = (4, 2, 1)
 """Cameras that are followed at each scale of blur; the finest has the last number."""
-_STEPS = (2, 2, 2)
+_STEPS = (2, 2, 4)
 _PROBE = np.array([2.0, 2.0, 0.04])
 """How far a probe moves each number of a camera: pictures make the slope of shorter moves too coarse."""
 _REACH = np.array([9.0, 9.0, 0.12])
