@@ -164,3 +164,24 @@ class TestMorphTargets:
         gltf = Gltf()
         with pytest.raises(UnreadableError, match="a morph target has 3 values for 6 vertices"):
             shape(gltf, [1.0], attributes={"POSITION": gltf.array(ROW)}, targets=[{"POSITION": gltf.array(ROW[:3])}])
+
+
+ENDS = {"min": CUBE.min(axis=0).tolist(), "max": CUBE.max(axis=0).tolist()}
+
+
+@pytest.mark.parametrize(
+    ("ends", "noted"),
+    [
+        (ENDS, False),
+        (ENDS | {"max": (np.array(ENDS["max"]) * 1.001).tolist()}, False),
+        (ENDS | {"max": (np.array(ENDS["min"]) * 0.5).tolist()}, True),
+        (ENDS | {"max": "far"}, False),
+        ({"min": [0], "max": [1]}, False),
+    ],
+)
+def test_positions_outside_of_what_the_file_says_of_them_are_noted(tmp_path, ends, noted):
+    gltf = Gltf()
+    indices = gltf.array(CUBE_FACES.reshape(-1), "u2")
+    primitive = {"attributes": {"POSITION": gltf.array(CUBE, **ends)}, "indices": indices}
+    _, notes = read(written(tmp_path, gltf.shown(gltf.mesh(primitive))))
+    assert notes == (("1 x mesh with positions outside of what the file says of them",) if noted else ())

@@ -405,3 +405,12 @@ class TestManyLines:
         area, notes = ink(f'<path fill="none" stroke="black" d="M{line}"/>', 'viewBox="0 0 1000 1000"')
         assert "picture of 1024" in notes[0] and area.is_valid
         assert 0.1e6 < area.area < 0.4e6
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_a_scale_at_the_end_of_what_numbers_hold_is_refused():
+    page = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 64 64" width="64" height="64">'
+    other = '<circle cx="30" cy="40" r="5" stroke="black" fill="none" stroke-dasharray="3 2"/>'
+    svg = f'{page}<path d="M8 20h48v6h-48z"/><g transform="rotate(5 32 32) scale(.1e308)">{other}</g></svg>'
+    with pytest.raises(UnreadableError, match="too large to measure"):
+        read_svg(svg.encode())

@@ -21,6 +21,7 @@ _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 """Numbers in an element. The small matrices, whose columns are padded, are used by nothing that is read."""
 _MOST = 2**22
 """Elements of an accessor without a buffer view, which a small file can announce: a mesh of eight million triangles."""
+_ROUNDED = 0.01
 _KEPT = 8
 """Arrays that are held at once; only sparse ones take memory of their own."""
 
@@ -51,6 +52,21 @@ class Accessors:
             raise UnreadableError(f"broken: accessor {index} holds no indices: {self.described[index].type} of "
                                   f"type {self.described[index].component_type}")  # fmt: skip
         return array
+
+    def lie_outside(self, index: int, values: Floats) -> bool:
+        """Whether values (N, width) lie beyond what the accessor says of its least and its greatest; by 1 %, not less.
+
+        Some programs round them.
+        """
+        accessor = at(self.described, index, "accessor")
+        try:
+            ends = np.array([accessor.min, accessor.max], dtype=np.float64)
+        except (TypeError, ValueError):
+            return False
+        if ends.shape != (2, values.shape[1]) or accessor.normalized or not np.isfinite(ends).all():
+            return False
+        slack = _ROUNDED * max(float(np.ptp(ends, axis=0).max()), float(np.abs(ends).max()))
+        return bool(((values < ends[0] - slack) | (values > ends[1] + slack)).any())
 
     def has_data(self, index: int) -> bool:
         """Whether an accessor has data of its own: others are zeros."""

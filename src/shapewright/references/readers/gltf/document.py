@@ -93,6 +93,8 @@ class Accessor(Struct, rename="camel", frozen=True):
     byte_offset: _Count = 0
     normalized: bool = False
     sparse: Sparse | None = None
+    min: Any = None
+    max: Any = None
 
 
 class Primitive(Struct, rename="camel", frozen=True):

@@ -37,6 +37,7 @@ class Geometry:
         joints: (V, J), of a skin; J is 0 where no joints move the vertices.
         weights: (V, J), how much each joint does.
         spare: corners at the end that are no whole triangle.
+        outside: whether the file says of its positions that they lie elsewhere.
     """
 
     vertices: Floats
@@ -44,6 +45,7 @@ class Geometry:
     joints: Ints
     weights: Floats
     spare: int = 0
+    outside: bool = False
 
 
 def has_triangles(primitive: Primitive) -> bool:
@@ -97,11 +99,12 @@ def geometry(primitive: Primitive, morph: Sequence[float], accessors: Accessors,
         return real
 
     vertices = values(_POSITION, position, 3)
+    outside = decoded is None and accessors.lie_outside(position, vertices)
     for target, weight in zip(primitive.targets, morph, strict=False):
         if weight and _POSITION in target:
             vertices += weight * values("a morph target", target[_POSITION], 3)
     joints, weights = _influences(primitive, values)
-    return Geometry(vertices, faces, joints, weights, spare)
+    return Geometry(vertices, faces, joints, weights, spare, outside)
 
 
 def _refuse_missing(primitive: Primitive, accessors: Accessors) -> None:

@@ -10,6 +10,7 @@ import shapely
 from contourpy import FillType, contour_generator
 from numpy.typing import NDArray
 
+from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.svg.painting.layers import Area, Fill, Painted
 from shapewright.shapes import Floats
 
@@ -43,6 +44,8 @@ class Faces:
         drawn: Any = shapely.linestrings(points, indices=which)
         lines = [*drawn, *cuts]
         size = float(np.ptp(np.concatenate([area.bounds for area in areas]), axis=0).max())
+        if not size * _SNAP > 0.0 or not np.isfinite(size):
+            raise UnreadableError("too large to measure")
         noded = shapely.union_all(lines, grid_size=size * _SNAP)
         self.polygons = shapely.get_parts(shapely.polygonize(shapely.get_parts(noded)))
         self._points = shapely.get_coordinates(shapely.point_on_surface(self.polygons))
