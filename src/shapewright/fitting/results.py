@@ -94,7 +94,6 @@ def recorded(
             "origins": list(references.origins),
             "up": references.up,
             "front": references.front,
-            "keep": list(references.keep),
             "pictures": references.pictures,
             "count": len(references),
             "skipped": {printable(path): reason for path, reason in references.skipped.items()},

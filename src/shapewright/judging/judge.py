@@ -17,7 +17,7 @@ from shapewright.comparison.remainders import remainder
 from shapewright.judging.drawing_target import DrawingTarget
 from shapewright.judging.mesh_target import MeshTarget
 from shapewright.judging.paper import Metric
-from shapewright.judging.scans.points_target import PointsTarget
+from shapewright.judging.scans.points_target import REACH, PointsTarget
 from shapewright.judging.target import Measures, Target
 from shapewright.judging.verdict import Evidence, Grade, Standing, Verdict, apart_of
 from shapewright.judging.views.view_target import ViewTarget
@@ -164,7 +164,8 @@ class Judge:
         target = self.targets[0]
         measure = self.measure(rows, fields)
         parts = parts_with_size(target.parts) if any(self.references.extents) else target.parts
-        return Criterion(measure, parts, target.goal, target.enough, target.surprise_cost)
+        reach = REACH if isinstance(target, PointsTarget) else 1.0
+        return Criterion(measure, parts, target.goal, target.enough, target.surprise_cost, reach)
 
     def compatible(self, measures: Sequence[Measures]) -> NDArray[np.bool_]:
         """Which replicas count as the same as their references by the paper's measure, (N,)."""

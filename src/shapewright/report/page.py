@@ -123,7 +123,6 @@ def _pair(
     regions = outlines(told) if told else boxes(reference)
     return {
         **reference,
-        "points": reference.get("points"),
         "grade": grade,
         "value": scale.value(reference),
         "title": scale.title(reference),
@@ -164,7 +163,7 @@ def _shown(parameter: dict[str, Any], reference: dict[str, Any]) -> list[Any] | 
 
 def _details(pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """What the page's script shows of each pair when it is opened."""
-    facts = ("name", "causes", "quiet", "title", "regions", "error", "path", "triangles", "points", "values")
+    facts = ("name", "causes", "quiet", "title", "regions", "error", "path", "triangles", "values")
     kept = (*facts, "colour", "tint", "link")
     return [
         {key: pair[key] for key in kept}

@@ -48,3 +48,4 @@ class Criterion:
     goal: float = -math.inf  # the cost up to which a reference is surely compatible; -inf where costs do not tell
     enough: float = -math.inf  # a cost, by the last part, at which the search for a reference ends
     surprise_cost: float = 0.0  # by how much it rises
+    reach: float = 1.0  # by which what moves call near to the goal is multiplied: more where noise is in all costs

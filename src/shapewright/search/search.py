@@ -170,7 +170,7 @@ def _built(
     asked = [
         (search, candidate, vector)
         for search in going
-        for candidate in _taking_part(search, move, criterion.goal)
+        for candidate in _taking_part(search, move, criterion)
         for vector in points(candidate, move, space, search.bounds, search.part, search.rng)
     ]
     parameters = [space.canonical(space.decode(vector)) for _, _, vector in asked]
@@ -196,11 +196,11 @@ def _built(
         search.done |= _known_is_best(search, start)
 
 
-def _taking_part(search: _Search, move: BuildingMove, goal: float) -> list[Candidate]:
+def _taking_part(search: _Search, move: BuildingMove, criterion: Criterion) -> list[Candidate]:
     """The candidates that a move tries something for, the best first."""
     best = search.candidates[0]
     near = move.near if isinstance(move, Step) else None
-    if near is not None and (best.known or not goal < search.cost <= near * goal):
+    if near is not None and (best.known or not criterion.goal < search.cost <= near * criterion.reach * criterion.goal):
         return []  # a known best was explored by the search that found it
     dearest = np.inf if isinstance(move, Scan) else move.rival * best.cost
     some = [candidate for candidate in search.candidates[: move.combinations] if not candidate.cost > dearest]

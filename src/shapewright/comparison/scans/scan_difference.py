@@ -19,9 +19,9 @@ from shapewright.rendering.point_pictures import view as view_points
 from shapewright.rendering.raster import view
 from shapewright.shapes import Floats, Mesh, Points, Shape
 
-_SIZE, _SAMPLES = 16, 4  # pixels along the side of a picture, samples along the side of a pixel: as in ``posed``
+_SIZE, _SAMPLES = 16, 8  # pixels along the side of a picture, samples of one along its side: thin legs stay thin
 _MARGIN = 1  # samples around what the scan shows that may be covered or not
-_SLACK = 0.03  # of the largest extent, by which a replica may stand before what the scan shows
+_SLACK = 0.02  # of the largest extent, by which a replica may stand before what the scan shows
 _DEEP = 0.15  # of the largest extent: what stands before it by so much more counts whole
 _POINTS = 800  # of the scan, whose distances are taken
 _FURTHEST = 0.2  # of the largest extent: points that are farther pull alike

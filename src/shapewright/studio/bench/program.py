@@ -257,8 +257,7 @@ class Bench:
             elif isinstance(shape, Mesh):
                 payload = shape_messages.mesh_message(shape, id=0, slug=request.slug, shape="reference")
             elif isinstance(shape, Points):
-                head = {"id": 0, "slug": request.slug, "shape": "reference", "discs": True}
-                payload = shape_messages.mesh_message(discs(shape), **head)
+                payload = shape_messages.mesh_message(discs(shape), id=0, slug=request.slug, shape="reference")
             else:
                 shape = shape_messages.silhouette(shape) if isinstance(shape, Views) else shape
                 message = shape_messages.drawing_message(shape, None, id=0, slug=request.slug, shape="reference")
