@@ -186,6 +186,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=5)
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--json", type=Path)
+    parser.add_argument("--eye", type=int, default=1, help="of the pairs that were labelled by eye take one in so many")
     parser.add_argument("--cost", type=int, default=0)
     parser.add_argument("--rows", type=Path, help="keep the rows in this file, or take them from it")
     arguments = parser.parse_args()
@@ -199,7 +200,7 @@ def main() -> None:
         rows = []
         for category in (*LEARNED, *MEASURED):
             rows += rows_of(category, variants(category, arguments.count, arguments.seed), arguments.seed)
-        eye = [pair for pair in by_eye() if pair[0] in ("vessel", "house")]
+        eye = [pair for pair in by_eye() if pair[0] in ("vessel", "house")][:: arguments.eye]
         for kind in sorted({pair[0] for pair in eye}):
             own = ((("eye", label, name + str(i), a, b)) for i, (k, label, name, a, b) in enumerate(eye) if k == kind)
             rows += rows_of(kind, own, arguments.seed)

@@ -31,6 +31,8 @@ from known_pairs import _built
 from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.verdict import grade_of
 from shapewright.prediction.scanning import Scanner, side_cameras
+from shapewright.rendering.cameras import THUMBNAIL
+from shapewright.rendering.raster import render
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.runs.iteration import Iteration
 from shapewright.settings import Settings
@@ -153,6 +155,9 @@ def sheet(
 def _grey(shape: Any, side: int) -> np.ndarray:
     if shape is None:
         return np.full((side, side), 255, dtype=np.uint8)
+    if isinstance(shape, Points):
+        shade = render([shape.normalised()], [THUMBNAIL], side)[0, 0, 0]
+        return np.where(shade > 0, shade // 2 + 60, 255).astype(np.uint8)
     picture = Image.open(BytesIO(thumbnail(shape, side))).convert("LA")
     ground = Image.new("LA", picture.size, (255, 255))
     return np.asarray(Image.alpha_composite(ground.convert("RGBA"), picture.convert("RGBA")).convert("L")).copy()
