@@ -91,7 +91,7 @@ def test_flat_names_read_write_copy_and_have_defaults_on_the_class():
 
 def test_every_setting_has_a_group_and_one_line_of_help():
     grouped = [name for names in groups().values() for name in names]
-    assert list(groups()) == ["building", "learning", "searching", "judging"]
+    assert list(groups()) == ["preparing", "building", "learning", "searching", "judging"]
     assert sorted([*grouped, "seed", "workers"]) == sorted(described()) == sorted(sw.Settings().record())
     assert all(field.help.endswith(".") and "\n" not in field.help for field in described().values())
 

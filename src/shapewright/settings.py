@@ -11,18 +11,43 @@ from dataclasses import dataclass, fields
 from functools import cache
 from typing import Annotated, Any, Literal, TypeAlias
 
-from shapewright.fields import Field, Within, fields_of, meant
+from shapewright.fields import Field, Within, either, fields_of, meant
 
 Align: TypeAlias = Literal["free", "upright"]
 Cameras: TypeAlias = Literal["fixed", "learned"]
 Device: TypeAlias = Literal["auto", "cpu", "cuda", "mps"]
 Facing: TypeAlias = Literal["given", "found"]
+Duplicates: TypeAlias = Literal["each", "once", "near"]
 JudgeName: TypeAlias = Literal["fidelity", "paper"]
 Network: TypeAlias = Literal["compact", "vgg19"]
 Optimiser: TypeAlias = Literal["adamw", "adam"]
 Preset: TypeAlias = Literal["fast", "paper"]
 Refine: TypeAlias = Literal["off", "quick", "thorough"]
+Split: TypeAlias = Literal["off", "apart", "names"]
 Weights: TypeAlias = tuple[float, float, float, float]
+
+DROPPED = ("sure", "ground", "backdrop", "frustum", "loose", "nothing")
+"""Words of ``drop``: what is found without doubt, or all of a kind."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Preparing:
+    """What of a collection is fitted."""
+
+    drop: Annotated[str, "What is no part of a shape: sure, ground, backdrop, frustum, loose, or nothing."] = "sure"
+    split: Annotated[Split, "Makes references of objects in one file: those far apart, or each name."] = "off"
+    duplicates: Annotated[Duplicates, "once: equal references follow the first; near: similar ones too."] = "once"
+    leave_out: Annotated[str, "References that are not fitted: names or patterns, with commas between."] = ""
+
+    @property
+    def dropped(self) -> tuple[str, ...]:
+        """The words of ``drop``."""
+        return tuple(word for word in _words(self.drop) if word != "nothing")
+
+    @property
+    def patterns(self) -> tuple[str, ...]:
+        """Those of ``leave_out``."""
+        return _words(self.leave_out)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,8 +115,8 @@ class Judging:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Settings(Judging, Searching, Learning, Building):
-    """How an iteration runs: ``Settings(seed=1, refine="off")``. Every field of the four groups is one of its own.
+class Settings(Judging, Searching, Learning, Building, Preparing):
+    """How an iteration runs: ``Settings(seed=1, refine="off")``. Every field of the five groups is one of its own.
 
     Raises ValueError for a value that its field does not allow, TypeError for an unknown name.
     """
@@ -112,6 +137,9 @@ class Settings(Judging, Searching, Learning, Building):
             raise ValueError(f"image_size={self.image_size} must be at least 32 for network='vgg19'")
         if self.cut > 1.0 and not self.cut_absolute:
             raise ValueError(f"cut={self.cut} must be at most 1, or a distance together with cut_absolute=True")
+        for word in _words(self.drop):
+            if word not in DROPPED:
+                raise ValueError(f"drop={self.drop!r}: {word!r} must be {either(DROPPED)}{meant(word, DROPPED)}")
         if self.close > self.replicated:
             raise ValueError(f"close={self.close} must be at most replicated={self.replicated}")
 
@@ -152,8 +180,12 @@ def described() -> Mapping[str, Field]:
 @cache
 def groups() -> Mapping[str, tuple[str, ...]]:
     """The names of the settings of each group, by the group's name in small letters."""
-    kinds = (Building, Learning, Searching, Judging)
+    kinds = (Preparing, Building, Learning, Searching, Judging)
     return {kind.__name__.lower(): tuple(field.name for field in fields(kind)) for kind in kinds}
+
+
+def _words(text: str) -> tuple[str, ...]:
+    return tuple(word.strip() for word in text.split(",") if word.strip())
 
 
 _PRESETS: dict[str, dict[str, Any]] = {

@@ -218,3 +218,21 @@ def test_settings_are_checked_and_recorded():
     for wrong in ({"samples": 3}, {"epochs": 0}, {"image_size": 50}, {"cut": 2.0}, {"threshold": -1.0}):
         with pytest.raises(ValueError, match=next(iter(wrong))):
             sw.Settings(**wrong)
+
+
+def test_a_copy_follows_the_first_and_has_its_results(iteration):
+    first, copy = iteration["bench a"], iteration["bench/b"]
+    assert copy.follows == "bench a" and first.follows is None
+    assert (copy.parameters, copy.grade, copy.group) == (first.parameters, first.grade, first.group)
+    assert copy.replica is first.replica and copy.measured == first.measured
+    assert "bench/b" in iteration.groups[copy.group].members
+    assert "bench/b: follows bench a, which it is like" in iteration.remarks
+    assert "bench/b" not in iteration.fitted.names and len(iteration.fitted) == len(iteration) - 1
+
+
+def test_a_run_on_disk_knows_who_follows_whom(iteration, tmp_path):
+    loaded = sw.Iteration.load(iteration.save(tmp_path / "run"))
+    assert {result.name: result.follows for result in loaded} == {r.name: r.follows for r in iteration}
+    assert loaded.remarks == iteration.remarks
+    page = write_report(tmp_path / "run").read_text()
+    assert "the same as bench a, and fitted with it" in page

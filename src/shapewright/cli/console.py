@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from shapewright.runs.iteration import Iteration
 
 out, err = Console(), Console(stderr=True)
+_MOST = 10  # lines of remarks on references
 _DOING = {
     "sample": "building samples",
     "render": "rendering",
@@ -106,6 +107,8 @@ def print_iteration(iteration: Iteration, folder: Path) -> None:
         out.print(f"[yellow]{len(skipped)} {'file' if len(skipped) == 1 else 'files'} could not be read:[/]")
         for path, reason in list(skipped.items())[:5]:
             out.print(f"  {escape(path)}: {escape(reason)}", highlight=False, soft_wrap=True)
+    for line in iteration.remarks[:_MOST]:
+        out.print(f"[yellow]{escape(line)}[/]", highlight=False, soft_wrap=True)
     if iteration.metrics["failed"]:
         out.print(f"[yellow]{iteration.metrics['failed']} samples failed:[/] {escape(iteration.metrics['failures'])}")
     print_means([result.measured for result in iteration], [result.grade for result in iteration])
@@ -187,6 +190,9 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
         "compatible": len(iteration.compatible),
         "incompatible": len(iteration) - len(iteration.compatible),
         "skipped": record["collection"]["skipped"],
+        "left_out": record["collection"].get("left_out", {}),
+        "notes": {result.name: list(result.notes) for result in iteration if result.notes},
+        "follows": {result.name: result.follows for result in iteration if result.follows},
         "groups": record["groups"],
         "worth_marking": record["worth_marking"],
         "means": means_record([result.measured for result in iteration], [result.grade for result in iteration]),

@@ -34,7 +34,20 @@ if TYPE_CHECKING:
 
 @with_settings(
     *("seed", "samples", "epochs", "cameras", "views", "augment", "refine", "rounds", "device"),
-    *("judge", "threshold", "vif", "align", "facing", "shape_seconds", "shape_memory_mb", "workers"),
+    *(
+        "drop",
+        "split",
+        "duplicates",
+        "leave_out",
+        "judge",
+        "threshold",
+        "vif",
+        "align",
+        "facing",
+        "shape_seconds",
+        "shape_memory_mb",
+        "workers",
+    ),
 )
 def fit(
     procedure: ProcedureArgument,

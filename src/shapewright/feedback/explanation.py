@@ -27,6 +27,7 @@ from shapewright.runs.folder import RunError
 from shapewright.runs.inputs import references_of
 from shapewright.runs.iteration import Iteration
 from shapewright.shapes import Drawing, Mesh, Points
+from shapewright.survey.preparation import prepared
 from shapewright.threads import in_threads
 
 IN_VIEWS = (
@@ -65,7 +66,7 @@ def explain(
     workers: int | None = None,
     rules: Sequence[Rule] | None = None,
 ) -> Explanation:
-    """Explain every reference of an iteration that has a replica.
+    """Explain every reference of an iteration that has a replica, and that follows no other one.
 
     Args:
         iteration: what ``fit`` returned, or ``Iteration.load``.
@@ -87,7 +88,9 @@ def explain(
     if iteration.collection.get("pictures") == "views" or references.in_views:
         raise RunError(IN_VIEWS)
     settings = replace(iteration.settings, workers=workers or iteration.settings.workers)
-    collection = _collection(for_procedure(references, procedure), iteration)
+    iteration = iteration.fitted
+    references = prepared(for_procedure(references, procedure), settings, settings.workers)
+    collection = _collection(references, iteration)
     if all(isinstance(reference.shape, Points) for reference in collection):
         raise RunError(_POINTS)
     stages = Stages(progress, _SHARES if suggest and references.kind is Mesh else _OF_CAUSES)

@@ -10,7 +10,7 @@ from shapewright.fitting.facing import quarter_turns
 from shapewright.fitting.learning import learn, learn_more
 from shapewright.fitting.pictures import suited
 from shapewright.fitting.replicas import replicate, resume
-from shapewright.fitting.results import judged, recorded
+from shapewright.fitting.results import followed, judged, recorded, telling
 from shapewright.fitting.start import Start, for_procedure
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters
@@ -19,6 +19,7 @@ from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
 from shapewright.runs.iteration import Iteration
 from shapewright.settings import Settings
+from shapewright.survey.preparation import following, leading, prepared
 
 
 def fit(
@@ -36,7 +37,8 @@ def fit(
 
     Args:
         procedure: the author's.
-        references: the shapes to replicate. Pictures are views of objects where the procedure builds meshes.
+        references: the shapes to replicate; ``settings`` say what of them is left out, and which follow others.
+            Pictures are views of objects where the procedure builds meshes.
         settings: how the iteration runs; the defaults are made for laptops.
         progress: called with a Progress a few times a second; ``print`` will do. Within seconds one holds an answer.
         cache: a folder that keeps the references' descriptors between iterations.
@@ -46,21 +48,28 @@ def fit(
 
     Raises:
         ProcedureError: the procedure cannot build shapes.
-        CollectionError: no picture can be read as one of an object.
+        CollectionError: no picture can be read as one of an object; a reference to leave out is none, or nothing is
+            left.
     """
-    settings, stages = settings or Settings(), Stages(progress)
+    settings = settings or Settings()
     references = for_procedure(references, procedure)
     with Workers.of(procedure, settings) as crew:
-        references = suited(references, crew)
-        start = Start.of(references, procedure.space, previous, known)
+        references = prepared(suited(references, crew), settings, settings.workers)
+        like = following(references, settings, settings.workers)
+        stages, fitted = Stages(progress and telling(progress, like)), leading(references, like)
+        start = Start.of(fitted, procedure.space, previous, known)
         lesson = learn(crew, settings, stages, start)
-        turns = quarter_turns(references, lesson.predictor, crew, settings, stages)
-        stages.begin("describe", len(references))
-        judge = Judge.of(references.turned(turns), settings, cache)
+        turns = quarter_turns(fitted, lesson.predictor, crew, settings, stages)
+        stages.begin("describe", len(fitted))
+        judge = Judge.of(fitted.turned(turns), settings, cache)
         replicas = resume(start, crew, judge)
         replicas = replicate(crew, judge, lesson, stages, replicas, start.new)
         for number in range(settings.rounds):
             lesson = learn_more(crew, settings, stages, lesson, replicas.parameters, number)
             replicas = replicate(crew, judge, lesson, stages, replicas)
     results, groups = judged(procedure, judge, replicas, stages)
-    return recorded(procedure, judge, lesson, results, groups, turns, stages)
+    turned = dict(zip(fitted.names, turns, strict=True)) | {
+        each.name: turns[fitted.names.index(each.of)] for each in like
+    }
+    results, groups = followed(references, like, results, groups, turned)
+    return recorded(procedure, judge, lesson, references, results, groups, turned, stages)

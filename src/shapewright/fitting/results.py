@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import platform
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from importlib.metadata import version
 
@@ -15,11 +16,13 @@ from shapewright.fitting.replicas import Replicas
 from shapewright.judging.judge import Judge
 from shapewright.parameters import to_record
 from shapewright.procedures import Procedure
-from shapewright.progress import Stages
+from shapewright.progress import Listener, Progress, Stages
+from shapewright.references import Collection
 from shapewright.runs.helpers import helpers_of
 from shapewright.runs.iteration import Iteration, draw_pictures
 from shapewright.runs.result import Result
 from shapewright.storage import printable
+from shapewright.survey.duplicates import Duplicate
 
 VERSIONED = ("shapewright", "numpy", "torch", "numba", "manifold3d", "scikit-learn", "trimesh")
 """Packages on which results depend."""
@@ -52,6 +55,7 @@ def judged(
             missing=seen.missing,
             surplus=seen.surplus,
             places=places,
+            notes=reference.notes,
         )
         for reference, build, its, seen, grade, same, places in zip(
             judge.references, builds, measures, replicas.evidence, grades, compatible, judge.places(builds), strict=True
@@ -60,18 +64,59 @@ def judged(
     return results, groups
 
 
+def followed(
+    references: Collection,
+    like: Sequence[Duplicate],
+    results: tuple[Result, ...],
+    groups: tuple[Group, ...],
+    turns: Mapping[str, int],
+) -> tuple[tuple[Result, ...], tuple[Group, ...]]:
+    """Results and groups with those of references that follow others, in the order of the collection.
+
+    Each has the parameters, the replica and the grade of the one that it follows. turns: quarter turns, by name.
+    """
+    by_name, followers = {result.name: result for result in results}, {each.name: each.of for each in like}
+    for reference in references:
+        if of := followers.get(reference.name):
+            by_name[reference.name] = replace(
+                by_name[of],
+                name=reference.name,
+                path=reference.path,
+                reference=reference.turned(turns[of]).shape,
+                notes=reference.notes,
+                follows=of,
+            )
+    grown = tuple(
+        Group(group.representative, (*group.members, *(n for n, of in followers.items() if of in group.members)))
+        for group in groups
+    )
+    return tuple(by_name[name] for name in references.names), grown
+
+
+def telling(progress: Listener, like: Sequence[Duplicate]) -> Listener:
+    """The listener, which hears the answers of references that follow others as well."""
+
+    def tell(event: Progress) -> None:
+        known = event.answer or {}
+        more = {each.name: known[each.of] for each in like if each.of in known}
+        progress(replace(event, answer={**known, **more}) if more else event)
+
+    return tell
+
+
 def recorded(
     procedure: Procedure,
     judge: Judge,
     lesson: Lesson,
+    references: Collection,
     results: tuple[Result, ...],
     groups: tuple[Group, ...],
-    turns: Sequence[int],
+    turns: Mapping[str, int],
     stages: Stages,
 ) -> Iteration:
-    """The iteration, with pictures of its results. turns: quarter turns of the references about the up axis."""
+    """The iteration, with pictures of its results. turns: quarter turns of references about the up axis, by name."""
     stages.begin("picture", 1)
-    references, predictor = judge.references, lesson.predictor
+    predictor = lesson.predictor
     pictures = draw_pictures(results, judge.settings.workers)
     stages.end()
     return Iteration(
@@ -97,12 +142,13 @@ def recorded(
             "pictures": references.pictures,
             "count": len(references),
             "skipped": {printable(path): reason for path, reason in references.skipped.items()},
+            "left_out": dict(references.left_out),
         },
         metrics={
             "samples": predictor.samples,
             **lesson.facts,
             "first_answer": stages.first_answer,
-            "turned": {name: 90 * turn for name, turn in zip(references.names, turns, strict=True) if turn},
+            "turned": {name: 90 * turn for name, turn in turns.items() if turn},
             "epochs": len(predictor.curve),
             "curve": [vars(epoch) for epoch in predictor.curve],
             "validation": predictor.metrics,

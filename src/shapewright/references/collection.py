@@ -43,6 +43,7 @@ class Collection:
         front: the axis of the files that points to the front; None for the usual one.
         keep: what was left in points.
         pictures: what pictures were read as.
+        left_out: reasons by name, for the references that were left out on request.
     """
 
     references: tuple[Reference, ...]
@@ -53,6 +54,7 @@ class Collection:
     front: str | None = None
     keep: tuple[Kept, ...] = ()
     pictures: Pictures = "drawings"
+    left_out: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         drawings = [reference.name for reference in self if isinstance(reference.shape, Drawing)]

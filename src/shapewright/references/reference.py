@@ -17,7 +17,7 @@ from shapewright.references.readers import formats as files
 from shapewright.references.scans.cleaning import cleaned
 from shapewright.references.scans.floor import up_by_floor
 from shapewright.references.scans.steps import Kept
-from shapewright.shapes import Drawing, Floats, Mesh, Points, ReferenceShape, Transform, Views, shape_digest
+from shapewright.shapes import Drawing, Floats, Ints, Mesh, Points, ReferenceShape, Transform, Views, shape_digest
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +36,7 @@ class Reference:
         unit: that of the file, in metres, where the file or its format states it; else None.
         extent: the longest side that its replicas are to have, in the procedure's unit; None where proportions count
             alone.
+        part_of: the name of the reference that it is one of several objects of; None for a whole file.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Reference:
     axes_by: AxesBy = "default"
     unit: float | None = None
     extent: float | None = None
+    part_of: str | None = None
 
     @cached_property
     def digest(self) -> str:
@@ -100,6 +102,19 @@ class Reference:
             transform=transform,
             orientation=self.orientation.turned(quarters),
         )
+
+    def of_faces(self, faces: Ints) -> Reference:
+        """The same mesh of some of its faces alone, centred and scaled anew. faces: indices, at least one.
+
+        Raises ValueError where these faces have no size.
+        """
+        assert isinstance(self.shape, Mesh)
+        used, corners = np.unique(self.shape.faces[faces], return_inverse=True)
+        some = self.shape.remade(self.shape.vertices[used], corners.reshape(-1, 3), faces)
+        inner, outer = some.normalisation(), self.transform
+        transform = Transform(tuple(outer.invert(inner.centre)), outer.scale * inner.scale)
+        extent = None if self.extent is None else self.extent / inner.scale
+        return replace(self, shape=some.normalised(), transform=transform, extent=extent)
 
     def __repr__(self) -> str:
         match self.shape:

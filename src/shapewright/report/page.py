@@ -122,6 +122,8 @@ def _pair(
     causes, grade = told["causes"] if told else [], grade_in(reference)
     regions = outlines(told) if told else boxes(reference)
     return {
+        "follows": None,
+        "notes": [],
         **reference,
         "grade": grade,
         "value": scale.value(reference),
@@ -164,7 +166,7 @@ def _shown(parameter: dict[str, Any], reference: dict[str, Any]) -> list[Any] | 
 def _details(pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """What the page's script shows of each pair when it is opened."""
     facts = ("name", "causes", "quiet", "title", "regions", "error", "path", "triangles", "values")
-    kept = (*facts, "colour", "tint", "link")
+    kept = (*facts, "follows", "notes", "colour", "tint", "link")
     return [
         {key: pair[key] for key in kept}
         | {"value": _number(pair["value"])}

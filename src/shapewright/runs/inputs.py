@@ -30,7 +30,9 @@ def procedure_of(run: Path, iteration: Iteration) -> Procedure:
 
 
 def references_of(iteration: Iteration, moved_to: str | None = None) -> Collection:
-    """The collection that an iteration was made with. moved_to: where it is now, if it was moved.
+    """The collection that an iteration was made with, before it was prepared.
+
+    moved_to: where it is now, if it was moved.
 
     Raises RunError when it is not where it was, or lacks references of the iteration.
     """
@@ -47,7 +49,7 @@ def references_of(iteration: Iteration, moved_to: str | None = None) -> Collecti
         collection = Collection.load(origins, **kept, pictures=record.get("pictures", "drawings"))
     except CollectionError as error:
         raise RunError(f"the references cannot be loaded: {error}\nIf they were moved, {again}") from error
-    lost = [name for name in iteration.names if name not in collection]
+    lost = [name for name in iteration.names if name not in collection and name.rpartition("/")[0] not in collection]
     if lost:
         names = ", ".join(lost[:_SHOWN]) + (", ..." if len(lost) > _SHOWN else "")
         where = ", ".join(origins)

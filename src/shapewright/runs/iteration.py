@@ -6,7 +6,7 @@ import csv
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -30,6 +30,8 @@ from shapewright.storage import file_names
 from shapewright.threads import in_threads
 
 _AS_RECORDED = ("seconds", "procedure", "collection", "metrics", "versions", "created")
+_AS_BEFORE = {"drop": "nothing", "duplicates": "each"}
+"""Settings of runs of versions that did not have them."""
 Pictures = Mapping[str, tuple[bytes, bytes | None]]
 
 
@@ -118,6 +120,24 @@ class Iteration:
         """The mean of each measure over the references where it can be taken, by name; NaN where it never can."""
         return mean([result.measured for result in self.results]).by_name()
 
+    @property
+    def remarks(self) -> list[str]:
+        """What of the references was left out, and which of them follow others, in words."""
+        lines = [f"{name}: {reason}" for name, reason in self.collection.get("left_out", {}).items()]
+        lines += [f"{result.name}: {'; '.join(result.notes)}" for result in self if result.notes]
+        return lines + [
+            f"{result.name}: follows {result.follows}, which it is like" for result in self if result.follows
+        ]
+
+    @property
+    def fitted(self) -> Iteration:
+        """The same iteration without references that follow others."""
+        own = {result.name: result for result in self.results if result.follows is None}
+        if len(own) == len(self.results):
+            return self
+        groups = (Group(g.representative, tuple(name for name in g.members if name in own)) for g in self.groups)
+        return replace(self, results=tuple(own.values()), groups=tuple(groups))
+
     def _of_grade(self, *grades: Grade) -> tuple[str, ...]:
         return tuple(result.name for result in self.results if result.grade in grades)
 
@@ -166,7 +186,7 @@ class Iteration:
             results=tuple(from_record(entry, read_replica(folder, entry)) for entry in record["references"]),
             metric=Metric.of_record(record),
             groups=tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"]),
-            settings=Settings.from_record(record["settings"]),
+            settings=Settings.from_record({**_AS_BEFORE, **record["settings"]}),
             source=(folder / "procedure.py").read_text(encoding="utf-8"),
             pictures={entry["name"]: _read_pictures(folder, entry["slug"]) for entry in record["references"]},
             helpers=read_helpers(folder),

@@ -38,6 +38,8 @@ class Result:
         surplus: regions of the replica without a counterpart, the largest first.
         places: from where an object in views was seen, one for each: azimuth and elevation in degrees, and one over the
             distance in largest extents. Empty for other references. Regions are those of the first view.
+        notes: what of the reference's file was left out.
+        follows: the reference that this one is like, and whose results it has; None for one that was fitted itself.
     """
 
     name: str
@@ -55,6 +57,8 @@ class Result:
     missing: tuple[Region, ...] = ()
     surplus: tuple[Region, ...] = ()
     places: tuple[tuple[float, ...], ...] = ()
+    notes: tuple[str, ...] = ()
+    follows: str | None = None
 
     @property
     def fidelity(self) -> float:
@@ -111,6 +115,8 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
         "error": result.error,
         "replica": replica_path(result.replica, slug),
         "triangles": len(result.reference.faces) if isinstance(result.reference, Mesh) else None,
+        "notes": list(result.notes),
+        "follows": result.follows,
     }
 
 
@@ -127,6 +133,8 @@ def from_record(entry: Mapping[str, Any], replica: Shape | None) -> Result:
         missing=tuple(_read_region(region) for region in entry.get("missing", ())),
         surplus=tuple(_read_region(region) for region in entry.get("surplus", ())),
         places=tuple(map(tuple, entry.get("places", ()))),
+        notes=tuple(entry.get("notes", ())),
+        follows=entry.get("follows"),
         **{name: entry[name] for name in ("name", "parameters", "compatible", "group", "error")},
     )
 

@@ -12,9 +12,11 @@ from shapewright.references.reading import Readers
 from shapewright.references.reference import Reference
 from shapewright.references.views import as_views
 from shapewright.rendering.thumbnails import thumbnail
+from shapewright.settings import Settings
 from shapewright.shapes import Mesh, Points, ReferenceShape
 from shapewright.storage import remove_leftovers, whole_file
 from shapewright.studio.project.listing import PICTURE, PICTURES, Listing, kept_picture
+from shapewright.survey.preparation import without_extras
 
 Item = TypeVar("Item")
 _MEMORY = 32 * 2**20
@@ -59,7 +61,10 @@ class Gallery:
         self._shelf: Shelf[Reference] = Shelf(_MEMORY, lambda reference: shape_bytes(reference.shape))
 
     def __getitem__(self, slug: str) -> Reference:
-        """Raises KeyError for a slug that is not known, UnreadableError for a file that cannot be read."""
+        """Without what stands around its shape, as fits leave it out.
+
+        Raises KeyError for a slug that is not known, UnreadableError for a file that cannot be read.
+        """
         known = self._shelf.get(slug)
         if known:
             return known
@@ -70,7 +75,7 @@ class Gallery:
             (read,) = self._readers.read(as_views([source]))  # a photograph is no drawing
             if isinstance(read, UnreadableError):
                 raise reason
-        return self._shelf.put(slug, read)
+        return self._shelf.put(slug, without_extras(read, Settings()))
 
     def view(self, slug: str) -> Reference:
         """The same reference as an object in a picture. Raises as ``[]`` does."""

@@ -1,0 +1,122 @@
+"""What of a collection is fitted: without what stands around its shapes, with several objects of a file apart."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from fnmatch import fnmatchcase
+
+import numpy as np
+
+from shapewright.fields import meant
+from shapewright.references import Collection, CollectionError, Reference
+from shapewright.settings import Preparing, Split
+from shapewright.shapes import Ints, Mesh
+from shapewright.survey.duplicates import Duplicate, duplicates
+from shapewright.survey.extras import Extra, found
+from shapewright.survey.likeness import pictures
+from shapewright.survey.objects import objects
+from shapewright.survey.pieces import Pieces
+from shapewright.threads import in_threads
+
+_AS_LARGE = 1e-4
+"""Share by which sizes may differ, where they count, of references that follow one another."""
+
+
+def prepared(references: Collection, how: Preparing, threads: int | None = None) -> Collection:
+    """The references that are fitted; their notes say what was left out of each, ``left_out`` which are none of them.
+
+    A collection that is prepared stays as it is. Raises CollectionError for a name to leave out that is none, and where
+    nothing would be left.
+    """
+    _check(how.patterns, [*references.names, *references.left_out])
+    kept = [reference for reference in references if not _is_named(reference, how.patterns)]
+    done = in_threads(lambda reference: list(_prepared(reference, how)), kept, threads)
+    results = [result for some in done for result in some if not _is_named(result, how.patterns)]
+    if not results:
+        raise CollectionError(f"leave_out={how.leave_out!r} leaves no reference; leave fewer out")
+    whole = {reference.name for reference in kept} | {result.name for result in results}
+    gone = {name: "left out on request" for name in references.names if name not in whole}
+    gone |= {r.name: "left out on request" for some in done for r in some if _is_named(r, how.patterns)}
+    return replace(references, references=tuple(results), left_out={**references.left_out, **gone})
+
+
+def without_extras(reference: Reference, how: Preparing) -> Reference:
+    """One reference without what stands around it, see ``Preparing.drop``."""
+    return next(_prepared(reference, replace(how, split="off")))
+
+
+def following(references: Collection, how: Preparing, threads: int | None = None) -> tuple[Duplicate, ...]:
+    """The references that are not fitted for themselves, since they are like one before them in the same pose."""
+    if how.duplicates == "each" or len(references) < 2 or references.in_views:
+        return ()
+    seen = pictures([reference.shape for reference in references], threads)
+    like = duplicates(references.references, seen)
+    return tuple(
+        each
+        for each in like
+        if not each.quarters
+        and (each.is_equal or how.duplicates == "near")
+        and _same_size(references[each.name].extent, references[each.of].extent)
+    )
+
+
+def leading(references: Collection, like: Sequence[Duplicate]) -> Collection:
+    """The references that follow none."""
+    followers = {each.name for each in like}
+    kept = tuple(reference for reference in references if reference.name not in followers)
+    return replace(references, references=kept) if like else references
+
+
+def _prepared(reference: Reference, how: Preparing) -> Iterator[Reference]:
+    if not isinstance(reference.shape, Mesh) or not (how.dropped or how.split != "off"):
+        yield reference
+        return
+    pieces = Pieces.of(reference.shape)
+    extras = [extra for extra in found(pieces) if _is_dropped(extra, how.dropped)]
+    rest = np.setdiff1d(np.arange(len(pieces)), np.concatenate([np.empty(0, np.int64), *(e.pieces for e in extras)]))
+    notes = (*reference.notes, *(f"left out: {extra.words}" for extra in extras))
+    split: Split = how.split if reference.part_of is None else "off"
+    parts = objects(pieces, rest, split)
+    names: set[str] = set()
+    for number, part in enumerate(parts, start=1):
+        name = reference.name
+        if len(parts) > 1:
+            name = f"{name}/{part.name or number}"
+            name = f"{name} ({number})" if name in names else name
+            names.add(name)
+        yield _of_pieces(reference, name, pieces, part.pieces, notes, len(parts))
+
+
+def _of_pieces(
+    reference: Reference, name: str, pieces: Pieces, some: Ints, notes: tuple[str, ...], count: int
+) -> Reference:
+    """The reference of some pieces of another one; that one itself where they are all."""
+    if len(some) == len(pieces):
+        return reference
+    result = replace(reference.of_faces(np.sort(pieces.faces(some))), notes=notes)
+    if count == 1:
+        return result
+    note = f"one of {count} objects in {reference.name}"
+    return replace(result, name=name, part_of=reference.name, notes=(*notes, note))
+
+
+def _same_size(one: float | None, other: float | None) -> bool:
+    return one == other or (one is not None and other is not None and math.isclose(one, other, rel_tol=_AS_LARGE))
+
+
+def _is_dropped(extra: Extra, dropped: Sequence[str]) -> bool:
+    return extra.kind in dropped or (extra.sure and "sure" in dropped)
+
+
+def _is_named(reference: Reference, patterns: Sequence[str]) -> bool:
+    return any(reference.name == each or fnmatchcase(reference.name, each) for each in patterns)
+
+
+def _check(patterns: Sequence[str], names: Sequence[str]) -> None:
+    """Raise CollectionError for a name that is none; names of objects in a file are known when it is split."""
+    for pattern in patterns:
+        is_plain = not any(sign in pattern for sign in "*?[/")
+        if is_plain and pattern not in names:
+            raise CollectionError(f"leave_out: there is no reference {pattern!r}{meant(pattern, names)}")
