@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shapewright.judging.drawn_fidelity import PAGE, Likeness, Seen, beside, largest_first
-from shapewright.judging.verdict import Evidence, Region
+from shapewright.judging.verdict import Region
 from shapewright.rendering.framed import framed
 from shapewright.search.views.camera_search import ViewsDifference
 from shapewright.shapes import Bytes, Floats, Mesh, Shape
@@ -69,11 +69,6 @@ class ViewFidelity:
         found = [beside(ours, _seen(picture)) for ours, picture in zip(self._seen(), pictures, strict=True)]
         _, missing, surplus = found[0]
         return InView(places, tuple(one[0] for one in found), largest_first(missing), largest_first(surplus))
-
-    def evidence(self, replica: Shape | None) -> Evidence:
-        """What there is to say of a replica; a value of NaN where the two cannot be compared."""
-        found = self.in_view(replica)
-        return Evidence(found.value, found.missing, found.surplus) if found else Evidence(math.nan)
 
 
 def value_of(likeness: Likeness, weights: Sequence[float] | Floats = _WEIGHTS, bias: float = _BIAS) -> float:
