@@ -1,5 +1,6 @@
 """Files of shapes: what readers other than ours, and ours, find in them."""
 
+import io
 import json
 import struct
 
@@ -152,3 +153,23 @@ def test_drawings_are_svg_whatever_the_format():
 def test_what_json_cannot_hold_is_refused(stool):
     with pytest.raises(ValueError, match="JSON"):
         glb(stool, {"height": float("nan")})
+
+
+def test_colours_reach_a_glb_file_as_materials_and_come_back():
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    colours = np.array([[255, 0, 0, 255], [255, 0, 0, 255], [0, 128, 0, 100], [0, 0, 0, 0]], dtype=np.uint8)
+    mesh = Mesh(corners, faces, np.array([0, 1, 1, -1]), ("top", "legs"), face_colours=colours)
+    again = read_glb(glb(mesh))
+    of_face = {(label, *row) for label, row in zip(again.labels, again.face_colours.tolist(), strict=True)}
+    wanted = {(label, *row) for label, row in zip(mesh.labels, colours.tolist(), strict=True)}
+    assert of_face == wanted and again.label_names == ("top", "legs")
+    part = trimesh.load_scene(io.BytesIO(glb(mesh)), file_type="glb").geometry["top"]
+    assert part.visual.material.baseColorFactor.tolist() == [255, 0, 0, 255]
+    half = trimesh.load_scene(io.BytesIO(glb(mesh)), file_type="glb").geometry["legs"]
+    assert half.visual.material.alphaMode == "BLEND"
+
+
+def test_a_mesh_without_colours_has_no_materials():
+    data = glb(Mesh(np.eye(3), np.array([[0, 1, 2]])))
+    assert "materials" not in json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
