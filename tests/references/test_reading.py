@@ -1,4 +1,5 @@
 import os
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -100,3 +101,40 @@ def test_what_fails_behind_the_reader_has_a_reason_too(tmp_path, monkeypatch):
     monkeypatch.setattr(reading, "read_reference", fail)
     with pytest.raises(CollectionError, match="broken: IndexError: behind"):
         Collection.load(write(tmp_path / "refs", "a.obj"))
+
+
+MANY = "1000000000"
+PLY = "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+LIST = "property list uint uint vertex_indices\nend_header\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "why"),
+    [
+        ("a.ply", PLY.format("ascii", MANY) + "end_header\n0 0 0\n", "cut short"),
+        ("a.ply", PLY.format("binary_little_endian", MANY) + "end_header\n" + "\0" * 12, "cut short"),
+        ("a.ply", PLY.format("ascii", 1) + f"element face {MANY}\n{LIST}0 0 0\n3 0 0 0\n", "cut short"),
+        (
+            "a.ply",
+            PLY.format("binary_little_endian", 1) + f"element face 1\n{LIST}" + "\0" * 12 + "\x7f" * 4,
+            "cut short",
+        ),
+        ("a.ply", f"ply\nformat ascii 1.0\nelement vertex {MANY}\nend_header\n", "no property 'x'"),
+        ("a.off", f"OFF\n{MANY} {MANY} 0\n0 0 0\n", "cut short"),
+        ("a.stl", "binary".ljust(80) + "\x7f" * 4 + "\0" * 50, "cut short"),
+        ("a.obj", f"v 0 0 0\nf 1 1 {MANY}\n", "outside its 1 vertices"),
+        ("a.pts", f"{MANY}\n0 0 0\n", "cut short"),
+        ("a.obj", "v 0 0 0\nv nan 0 0\nv 0 inf 0\nf 1 2 3\n", "finite"),
+    ],
+)
+def test_what_a_small_file_announces_takes_no_memory(tmp_path, name, content, why):
+    (tmp_path / name).write_bytes(content.encode("latin-1"))
+    (source,) = find([tmp_path / name])
+    tracemalloc.start()
+    try:
+        found = reading.attempt(source)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert isinstance(found, UnreadableError) and why in str(found)
+    assert peak < 2**24

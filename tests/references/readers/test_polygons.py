@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shapewright.references.errors import UnreadableError
-from shapewright.references.readers.polygons import Polygons, triangulate
+from shapewright.references.readers.polygons import MOST_CORNERS, Polygons, triangulate
 
 
 def polygons(vertices, loops) -> Polygons:
@@ -64,3 +64,13 @@ def test_star_shaped_polygons_are_filled_exactly(radii):
     flat = area_vectors(np.stack([x, y, 0 * x], axis=1), faces)[:, 2]
     assert len(faces) == len(radii) - 2
     assert np.abs(flat).sum() == pytest.approx((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2, rel=1e-5)
+
+
+def test_a_polygon_that_would_take_minutes_to_be_cut_is_refused_and_a_convex_one_is_not():
+    turns = np.linspace(0.0, 2.0 * np.pi, MOST_CORNERS + 1, endpoint=False)
+    circle = np.stack([np.cos(turns), np.sin(turns), 0.0 * turns], axis=-1)
+    loops = [list(range(len(turns)))]
+    assert len(triangulate(polygons(circle, loops))) == len(turns) - 2
+    star = circle * np.where(np.arange(len(turns)) % 2, 1.0, 0.5)[:, None]
+    with pytest.raises(UnreadableError, match="a polygon of 10,001 corners that is not convex"):
+        triangulate(polygons(star, loops))
