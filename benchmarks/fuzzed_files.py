@@ -12,6 +12,8 @@ import sys
 import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -169,6 +171,36 @@ def autodesk_files() -> list[bytes]:
     return [fbx_files.binary(tree), fbx_files.binary(tree, 7500, compressed=False), fbx_files.written(tree)]
 
 
+def usd_files(binary: bool) -> list[bytes]:
+    """A stage with a mesh, an exact shape and an instancer."""
+    from pxr import Gf, Usd, UsdGeom
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"a.usd{'c' if binary else 'a'}"
+        stage = Usd.Stage.CreateNew(str(path))
+        box = UsdGeom.Mesh.Define(stage, "/box")
+        box.GetPointsAttr().Set([Gf.Vec3f(*map(float, point)) for point in POINTS])
+        box.GetFaceVertexCountsAttr().Set([3] * len(FACES))
+        box.GetFaceVertexIndicesAttr().Set(FACES.reshape(-1).astype(int).tolist())
+        UsdGeom.XformCommonAPI(box).SetTranslate((1, 0, 0))
+        instancer = UsdGeom.PointInstancer.Define(stage, "/many")
+        ball = UsdGeom.Sphere.Define(stage, "/many/ball")
+        instancer.GetPrototypesRel().AddTarget(ball.GetPath())
+        instancer.GetProtoIndicesAttr().Set([0, 0])
+        instancer.GetPositionsAttr().Set([Gf.Vec3f(0, 0, 0), Gf.Vec3f(0, 3, 0)])
+        stage.Save()
+        return [path.read_bytes()]
+
+
+def step_files() -> list[bytes]:
+    import cadquery
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "a.step"
+        cadquery.exporters.export(cadquery.Workplane("XY").box(1, 2, 3).faces(">Z").hole(0.5), str(path))
+        return [path.read_bytes()]
+
+
 def cloud() -> np.ndarray:
     """Points (400, 3) on the sides of a box."""
     rng = np.random.default_rng(0)
@@ -221,6 +253,12 @@ FORMATS: dict[str, Callable[[], list[bytes]]] = {
     "splat": splat_files,
     "zip": zip_files,
 }
+if find_spec("laspy") and find_spec("pye57"):  # the extra [points]
+    FORMATS |= {"las": lambda: las_files(False), "laz": lambda: las_files(True), "e57": e57_files}
+if find_spec("pxr"):
+    FORMATS |= {"usda": cache(lambda: usd_files(False)), "usdc": cache(lambda: usd_files(True))}
+if find_spec("cadquery") and find_spec("cascadio"):
+    FORMATS["step"] = cache(step_files)
 DECLARED = {
     "ply": rb"element \w+ (\d+)",
     "off": rb"OFF\s+(\d+) \d+ \d+|OFF\s+\d+ (\d+) \d+",

