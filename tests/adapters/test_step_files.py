@@ -83,5 +83,5 @@ def test_nothing_is_read_of_a_file_without_shapes(tmp_path):
     cadquery.exporters.export(cadquery.Workplane("XY").box(1, 1, 1), str(tmp_path / "a.step"))
     head, _, _ = (tmp_path / "a.step").read_text().partition("DATA;")
     (tmp_path / "b.step").write_text(f"{head}DATA;\nENDSEC;\nEND-ISO-10303-21;\n")
-    with pytest.raises(UnreadableError, match="no shape|Incorrect Syntax"):
+    with pytest.raises(UnreadableError, match=r"no shape|Incorrect Syntax"):
         contents(tmp_path / "b.step")
