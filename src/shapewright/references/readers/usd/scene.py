@@ -21,6 +21,7 @@ from shapewright.shapes import Floats, Ints
 
 _MOST = 200_000
 """Places of shapes. A small file can announce any number, since an instance may stand within many."""
+_SHOWN = 100
 _DEEPEST = 16
 """Instancers within instancers."""
 _SHAPES = ("Mesh", "Cube", "Sphere", "Cylinder", "Cylinder_1", "Cone", "Capsule", "Capsule_1", "Plane")
@@ -58,6 +59,8 @@ def read_usd(path: Path, _: bytes) -> Scene:
             _walk(_Walk(Usd, UsdGeom, time, UsdGeom.XformCache(time)), stage.GetPseudoRoot(), np.eye(4), found, 0)
         except Tf.ErrorException as error:
             raise UnreadableError(f"broken: {told(error)}") from error
+        except TypeError as error:  # of a value that the library cannot hand over, such as a background that is empty
+            raise UnreadableError(f"broken: a value of a wrong type: {str(error)[:_SHOWN]}") from error
         found.left_out["reference that leads nowhere"] += len(stage.GetCompositionErrors())
         unit, up = (_stated(read, stage) for read in (UsdGeom.GetStageMetersPerUnit, UsdGeom.GetStageUpAxis))
     notes = tuple(f"{count} x {what} left out" for what, count in found.left_out.items() if count)
