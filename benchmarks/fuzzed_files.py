@@ -9,6 +9,7 @@ import json
 import re
 import struct
 import sys
+import tempfile
 import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -253,11 +254,9 @@ FORMATS: dict[str, Callable[[], list[bytes]]] = {
     "splat": splat_files,
     "zip": zip_files,
 }
-if find_spec("laspy") and find_spec("pye57"):  # the extra [points]
-    FORMATS |= {"las": lambda: las_files(False), "laz": lambda: las_files(True), "e57": e57_files}
-if find_spec("pxr"):
+if find_spec("pxr"):  # the extra [usd]
     FORMATS |= {"usda": cache(lambda: usd_files(False)), "usdc": cache(lambda: usd_files(True))}
-if find_spec("cadquery") and find_spec("cascadio"):
+if find_spec("cadquery") and find_spec("cascadio"):  # the extras [cadquery] and [cad]
     FORMATS["step"] = cache(step_files)
 DECLARED = {
     "ply": rb"element \w+ (\d+)",

@@ -129,7 +129,7 @@ def _columns(accessor: Element, width: int) -> list[int]:
     by_name = {params[i].get("name").upper(): i for i in named}
     if width == 3 and {"X", "Y", "Z"} <= set(by_name):
         return [by_name[axis] for axis in "XYZ"]
-    columns = named or list(range(max(len(params), _whole(accessor, "stride", 1))))
+    columns = named or list(range(max(len(params), min(_whole(accessor, "stride", 1), width))))
     if len(columns) < width:
         raise UnreadableError(f"broken: positions or weights of {len(columns)} numbers, not of {width}")
     return columns[:width]
