@@ -62,5 +62,8 @@ def _opened(sdf: Any, where: str, asset: str) -> Any:
 
 def told(error: Exception) -> str:
     """What an error of the library tells, without where in its code it was."""
-    first = str(error).strip().partition("\n")[0]
+    try:
+        first = str(error).strip().partition("\n")[0]
+    except UnicodeError:  # it quotes what it finds
+        return "it has text that is not UTF-8"
     return first.rpartition(" : '")[2].rstrip("' ")[-_SHOWN:]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -59,7 +59,10 @@ def read_usd(path: Path, _: bytes) -> Scene:
             _walk(_Walk(Usd, UsdGeom, time, UsdGeom.XformCache(time)), stage.GetPseudoRoot(), np.eye(4), found, 0)
         except Tf.ErrorException as error:
             raise UnreadableError(f"broken: {told(error)}") from error
-        except TypeError as error:  # of a value that the library cannot hand over, such as a background that is empty
+        except (
+            TypeError,
+            UnicodeError,
+        ) as error:  # of a value that the library cannot hand over, such as a background that is empty
             raise UnreadableError(f"broken: a value of a wrong type: {str(error)[:_SHOWN]}") from error
         found.left_out["reference that leads nowhere"] += len(stage.GetCompositionErrors())
         unit, up = (_stated(read, stage) for read in (UsdGeom.GetStageMetersPerUnit, UsdGeom.GetStageUpAxis))
@@ -78,7 +81,8 @@ def _quiet() -> Iterator[None]:
     try:
         yield
     finally:
-        delegate.TakeUncoalescedDiagnostics()
+        with suppress(UnicodeError):  # they quote what they find
+            delegate.TakeUncoalescedDiagnostics()
 
 
 def _stated(read: Callable[[Any], Any], stage: Any) -> Any:
