@@ -24,9 +24,12 @@ if TYPE_CHECKING:
     from shapewright.rules.rule import rule
     from shapewright.runs.changes import compare
     from shapewright.runs.iteration import Iteration
+    from shapewright.survey.survey import Survey, check
 
 # An author's file imports this package in every worker process: what loads torch or numba is loaded when first used.
 _ON_FIRST_USE = {
+    "check": "shapewright.survey.survey",
+    "Survey": "shapewright.survey.survey",
     "compare": "shapewright.runs.changes",
     "evaluate": "shapewright.fitting.evaluation",
     "explain": "shapewright.feedback.explanation",
@@ -76,11 +79,13 @@ __all__ = [
     "Scalar",
     "Seed",
     "Settings",
+    "Survey",
     "Transform",
     "Verdict",
     "View",
     "Views",
     "When",
+    "check",
     "compare",
     "evaluate",
     "explain",

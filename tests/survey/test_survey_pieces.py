@@ -48,3 +48,8 @@ def test_what_is_small_goes_with_the_nearest_object(tmp_path):
 def test_each_name_can_be_an_object(tmp_path):
     found = pieces(tmp_path / "a.glb", scenes.chair())
     assert {one.name for one in objects(found, np.arange(len(found)), "names")} == set(scenes.chair())
+
+
+def test_a_mesh_is_closed_by_its_places_and_open_without_a_face(tmp_path):
+    assert pieces(tmp_path / "a.stl", scenes.chair()).closed
+    assert not pieces(tmp_path / "b.ply", {"sheet": scenes.sheet(1, 2)}).closed

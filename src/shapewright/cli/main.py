@@ -8,6 +8,7 @@ import sys
 import typer
 from rich.markup import escape
 
+from shapewright.cli.checks import check
 from shapewright.cli.console import err, print_json
 from shapewright.cli.evaluations import evaluate
 from shapewright.cli.fits import fit
@@ -28,7 +29,7 @@ app = typer.Typer(
     help="Find the parameters that replicate a collection of shapes, and see what the procedure cannot make yet.",
     epilog="Start with [bold]shapewright demo[/], or with [bold]shapewright new chairs[/] for a project of your own.",
 )
-for command in (new, fit, explain, mark, evaluate, describe, sample, silhouettes, report, compare, studio, demo):
+for command in (new, check, fit, explain, mark, evaluate, describe, sample, silhouettes, report, compare, studio, demo):
     app.command()(command)
 app.add_typer(rules, name="rules")
 

@@ -31,6 +31,7 @@ class Pieces:
         low: (P, 3), the least corner of each piece.
         high: (P, 3), the greatest.
         components: how many there are whatever their labels.
+        closed: whether every edge has a face on either side.
     """
 
     mesh: Mesh
@@ -38,6 +39,7 @@ class Pieces:
     low: Floats
     high: Floats
     components: int
+    closed: bool
 
     def __len__(self) -> int:
         return len(self.low)
@@ -57,7 +59,7 @@ class Pieces:
         low, high = (np.full((int(of_faces.max()) + 1, 3), side) for side in (np.inf, -np.inf))
         np.minimum.at(low, of_faces, mesh.triangles.min(axis=1))
         np.maximum.at(high, of_faces, mesh.triangles.max(axis=1))
-        return cls(mesh, of_faces, low, high, components)
+        return cls(mesh, of_faces, low, high, components, _is_closed(corners))
 
     def faces(self, pieces: Sequence[int] | Ints) -> Ints:
         """The faces of some pieces, as indices."""
@@ -122,6 +124,14 @@ class Pieces:
             triangles = np.concatenate([np.stack([a, middle, c], axis=1), np.stack([middle, b, c], axis=1)])
             owner = np.concatenate([owner, owner])
         return np.concatenate(found), np.concatenate(owners)
+
+
+def _is_closed(corners: Ints) -> bool:
+    """Whether faces (F, 3) of places share each edge; those with an edge of no length count by the others."""
+    ends = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+    edges = ends[ends[:, 0] != ends[:, 1]]
+    counts = np.unique(edges[:, 0] * (int(corners.max()) + 1) + edges[:, 1], return_counts=True)[1]
+    return bool((counts > 1).all())
 
 
 def _keys(points: Floats, side: float) -> Ints:
