@@ -112,3 +112,8 @@ def test_numbers_that_are_missing_are_told(tmp_path):
 def test_decimals_with_commas_are_read_where_the_counts_say_so(tmp_path):
     shape = accessed('count="3" stride="3"', "", [0, 0, 0, 1.5, 0, 0, 1.5, 1.5, 0]).replace(".5", ",5")
     assert of(tmp_path, shape).shape.bounds.tolist() == [[0, 0, 0], [1.5, 1.5, 0]]
+
+
+def test_a_stride_beyond_all_measure_is_refused_at_once(tmp_path):
+    with pytest.raises(UnreadableError, match="goes beyond 9 numbers"):
+        of(tmp_path, accessed('count="3" stride="99999999999"', "", range(9)))
