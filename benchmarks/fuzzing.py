@@ -48,6 +48,8 @@ LIMITS = Limits(seconds=60.0, memory_mb=1024)  # wall time: other programs may h
 AT_ONCE = 200
 SAYS_NOTHING = ("obj", "xyz")
 """Formats that declare neither how much they hold nor where they end."""
+_NOTHING_LOST = ("normals estimated", "Gaussian splats: their centres")
+"""Beginnings of notes that points have which are read as they are."""
 _LOST = {"time": "hang", "memory": "memory", "crash": "crash"}
 _SHOWN_ERROR = re.compile(r"broken: (\w*(?:Error|Exception|Iteration|Warning)\b.*)")
 
@@ -99,8 +101,9 @@ def seen(path: Path) -> Outcome:
             count = 1
         case points:
             count = len(points.positions)
-    kind = "noted" if read[0].notes or len(read) < len(found) else "read"
-    return Outcome(kind, " | ".join(read[0].notes), 1.0 / read[0].transform.scale, count)
+    lost = [note for note in read[0].notes if not note.startswith(_NOTHING_LOST)]
+    kind = "noted" if lost or len(read) < len(found) else "read"
+    return Outcome(kind, " | ".join(lost), 1.0 / read[0].transform.scale, count)
 
 
 def outcomes(paths: list[Path], calls: Calls[Path, Outcome]) -> Iterator[Outcome]:

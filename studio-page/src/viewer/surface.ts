@@ -19,6 +19,8 @@ export interface Triangles {
   positions: Float32Array;
   /** (F, 3) */
   indices: Uint32Array;
+  /** whether they stand for points and have no creases */
+  discs?: boolean;
 }
 
 /** Writes a colour (linear light) for each corner of each face (F, 3, 3). */
@@ -51,7 +53,7 @@ export class Surface {
     this.triangles = triangles;
     this.group.visible = triangles !== null && triangles.indices.length > 0;
     if (!triangles) return;
-    this.segments = creases(triangles.positions, triangles.indices);
+    this.segments = triangles.discs ? new Float32Array() : creases(triangles.positions, triangles.indices);
     fill(this.lines, "position", this.segments.length).set(this.segments);
     this.cover(triangles, paint);
   }

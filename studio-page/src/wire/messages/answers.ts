@@ -34,6 +34,8 @@ export interface MeshHead {
   milliseconds?: number;
   vertices: number;
   triangles: number;
+  /** triangles stand for points: their edges are none of the shape. */
+  discs: boolean;
   /** ``labels`` are indices into it, -1 without a label; no buffer when nothing is labelled. */
   label_names: string[];
   buffers: Buffer[];

@@ -16,7 +16,7 @@ export const SETTINGS = {
   seed: { help: "Of everything random: the same seed gives the same result.", least: 0, most: null, step: 1 },
 } as const;
 export const MEASURES: Record<string, string> = {
-  distance: "The paper's: light-field distance, or 1 - VIF",
+  distance: "The paper's: light-field distance, or 1 - VIF; of a scan that of its points",
   iou: "IoU of silhouettes, or of areas",
   chamfer: "Chamfer distance, in largest extents",
   depth: "Difference of depth pictures, 0 to 1",
