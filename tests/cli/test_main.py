@@ -216,3 +216,13 @@ def test_a_full_disk_is_a_message_and_leaves_nothing(project):
     assert run.returncode == 1 and "cannot be written: File too large" in run.stderr
     assert "Traceback" not in run.stderr
     assert not list((project / "runs").iterdir())
+
+
+def test_what_was_found_of_up_and_front_is_told_before_anything_long_starts(project):
+    run = shapewright("fit", "stool.py", "references", "--up", "auto", *QUICK, "--json", cwd=project)
+    assert run.returncode == 0, run.stderr
+    told, _, _ = run.stderr.partition("training")
+    assert "finding up and front" in told and "no up is to be seen: 3 (block 0, block 1, block 2)" in told
+    axes = last_json(run)["axes"]
+    assert {name: (each["up"], each["by"]) for name, each in axes.items()} == dict.fromkeys(axes, ("y", "default"))
+    assert (project / "runs" / "001" / "axes.png").is_file()

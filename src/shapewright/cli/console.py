@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 out, err = Console(), Console(stderr=True)
 _MOST = 10  # lines of remarks on references
 _DOING = {
+    "axes": "finding up and front",
     "sample": "building samples",
     "render": "rendering",
     "train": "training",
@@ -189,6 +190,7 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
         "different": len(iteration.different),
         "compatible": len(iteration.compatible),
         "incompatible": len(iteration) - len(iteration.compatible),
+        "axes": record["collection"]["axes"],
         "skipped": record["collection"]["skipped"],
         "left_out": record["collection"].get("left_out", {}),
         "notes": {result.name: list(result.notes) for result in iteration if result.notes},

@@ -31,6 +31,9 @@ if TYPE_CHECKING:
     from shapewright.references import Collection
     from shapewright.runs.iteration import Iteration
 
+_NAMED = 4  # names of references in a line
+_SIDES = 4  # that look like the front of a shape that has none
+
 
 @with_settings(
     *("seed", "samples", "epochs", "cameras", "views", "augment", "refine", "rounds", "device"),
@@ -108,8 +111,11 @@ def fit_and_save(
     Raises RunError where it cannot be explained; the run is saved by then.
     """
     from shapewright.fitting.fit import fit as iterate
+    from shapewright.fitting.standing import stand
 
     with interruptible("nothing of this run was written; earlier runs are as they were") as listen:
+        references = stand(procedure, references, settings, listen)
+        print_axes(references)
         iteration = iterate(procedure, references, settings, listen, cache_folder(), previous, known)
     _save(iteration, folder)
     if explained:
@@ -141,3 +147,25 @@ def _explain(iteration: Iteration, procedure: Procedure, references: Collection,
         raise
     except Exception as error:
         raise RunError(f"the run could not be explained: {error}\nBut {remains}") from error
+
+
+def print_axes(references: Collection) -> None:
+    """Which axes of the files point up and to the front, where these were looked for; on standard error."""
+    found = [(reference, reference.finding) for reference in references if reference.finding]
+    ways: dict[tuple[str, str, str], list[str]] = {}
+    for each, _ in found:
+        how = "turned" if each.axes_by == "found" else "as it is given"
+        ways.setdefault((each.orientation.up, each.orientation.front, how), []).append(each.name)
+    for (up, front, how), names in sorted(ways.items(), key=lambda way: -len(way[1])):
+        err.print(f"up {up}, front {front}, {how}: {_counted(names)}", highlight=False, soft_wrap=True)
+    for what, names in (
+        ("no up is to be seen", [each.name for each, finding in found if not finding.has_up]),
+        ("no front is to be seen", [each.name for each, finding in found if finding.fronts == _SIDES]),
+    ):
+        if names:
+            err.print(f"[dim]{what}: {_counted(names)}[/]", highlight=False, soft_wrap=True)
+
+
+def _counted(names: Sequence[str]) -> str:
+    more = ", ..." if len(names) > _NAMED else ""
+    return f"{len(names)} ({escape(', '.join(names[:_NAMED]))}{more})"

@@ -36,7 +36,9 @@ PresetOption = Annotated[
 ]
 Seed = Annotated[int, option("seed")]
 Workers = Annotated[int | None, option("workers")]
-Up = Annotated[str, typer.Option(help="The axis of the files that points up: x, y, z, -x, -y, -z.")]
+Up = Annotated[
+    str, typer.Option(help="The axis of the files that points up: x, y, z, -x, -y, -z; auto finds up and front.")
+]
 Front = Annotated[
     str | None, typer.Option(help="The axis that points to the front.  [dim]default: z, or -y where up is z[/]")
 ]

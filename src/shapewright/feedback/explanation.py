@@ -22,6 +22,7 @@ from shapewright.judging.judge import Judge
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.references import Collection
+from shapewright.references.standing import recorded_orientation
 from shapewright.rules.rule import Rule
 from shapewright.runs.folder import RunError
 from shapewright.runs.inputs import references_of
@@ -130,6 +131,8 @@ def _collection(references: Collection, iteration: Iteration) -> Collection:
     """The references of an iteration in its order, turned as they were then."""
     turned = iteration.metrics.get("turned", {})
     collection = Collection(tuple(references[name] for name in iteration.names), source=references.source)
+    axes = iteration.collection.get("axes") or {}
+    collection = collection.oriented({name: recorded_orientation(record) for name, record in axes.items()})
     return collection.turned([turned.get(name, 0) // 90 for name in collection.names]) if turned else collection
 
 

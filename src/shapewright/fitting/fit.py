@@ -11,6 +11,7 @@ from shapewright.fitting.learning import learn, learn_more
 from shapewright.fitting.pictures import suited
 from shapewright.fitting.replicas import replicate, resume
 from shapewright.fitting.results import followed, judged, recorded, telling
+from shapewright.fitting.standing import stand
 from shapewright.fitting.start import Start, for_procedure
 from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters
@@ -38,7 +39,8 @@ def fit(
     Args:
         procedure: the author's.
         references: the shapes to replicate; ``settings`` say what of them is left out, and which follow others.
-            Pictures are views of objects where the procedure builds meshes.
+            Pictures are views of objects where the procedure builds meshes. Where up is "auto", the procedure's shapes
+            decide how meshes stand.
         settings: how the iteration runs; the defaults are made for laptops.
         progress: called with a Progress a few times a second; ``print`` will do. Within seconds one holds an answer.
         cache: a folder that keeps the references' descriptors between iterations.
@@ -52,6 +54,7 @@ def fit(
             left.
     """
     settings = settings or Settings()
+    references = references if references.taught else stand(procedure, references, settings, progress)
     references = for_procedure(references, procedure)
     with Workers.of(procedure, settings) as crew:
         references = prepared(suited(references, crew), settings, settings.workers)

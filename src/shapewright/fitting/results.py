@@ -18,6 +18,7 @@ from shapewright.parameters import to_record
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Progress, Stages
 from shapewright.references import Collection
+from shapewright.references.standing import AUTO, axes_record
 from shapewright.runs.helpers import helpers_of
 from shapewright.runs.iteration import Iteration, draw_pictures
 from shapewright.runs.result import Result
@@ -140,6 +141,7 @@ def recorded(
             "up": references.up,
             "front": references.front,
             "pictures": references.pictures,
+            "axes": {each.name: axes_record(each) for each in references} if references.up == AUTO else None,
             "count": len(references),
             "skipped": {printable(path): reason for path, reason in references.skipped.items()},
             "left_out": dict(references.left_out),

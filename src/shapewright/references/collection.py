@@ -20,6 +20,7 @@ from shapewright.references.readers.views.reader import view_of
 from shapewright.references.reading import Readers
 from shapewright.references.reference import Reference, normalised
 from shapewright.references.scans.steps import Kept, kept
+from shapewright.references.standing import AUTO, stood, told
 from shapewright.references.views import Pictures, as_views, joined
 from shapewright.shapes import Drawing, Mesh, Views
 from shapewright.shapes.conversion import as_reference
@@ -39,11 +40,12 @@ class Collection:
         skipped: reasons by file, for the files that could not be read.
         source: where the collection comes from, in words.
         origins: absolute paths or patterns to load it from again; empty for one made in memory.
-        up: the axis of the files that points up.
+        up: the axis of the files that points up; "auto" where it was found, see ``stood``.
         front: the axis of the files that points to the front; None for the usual one.
         keep: what was left in points.
         pictures: what pictures were read as.
         left_out: reasons by name, for the references that were left out on request.
+        taught: whether up and front were found with the help of a procedure.
     """
 
     references: tuple[Reference, ...]
@@ -55,6 +57,7 @@ class Collection:
     keep: tuple[Kept, ...] = ()
     pictures: Pictures = "drawings"
     left_out: Mapping[str, str] = field(default_factory=dict)
+    taught: bool = False
 
     def __post_init__(self) -> None:
         drawings = [reference.name for reference in self if isinstance(reference.shape, Drawing)]
@@ -89,8 +92,9 @@ class Collection:
         Args:
             source: one source or several.
             up: the axis of the mesh files that points up, among x, y, z, -x, -y, -z. A file whose format says which
-                axis that is, as 3MF does, goes by its format where this is y.
-            front: the axis that points to the front; by default z, or -y where up is z or -z, as in Blender and CAD.
+                axis that is, as 3MF does, goes by its format where this is y. "auto" finds it, see ``stood``.
+            front: the axis that points to the front; by default z, or -y where up is z or -z, as in Blender and CAD;
+                where up is "auto", the one that is found.
             keep: what is left in points, of floor, density and strays: see docs/howto.md. By default a floor is taken
                 off, points are left out where they are much denser than elsewhere, and so are stray ones.
             pictures: whether pictures are drawings, or views of objects for a procedure that makes meshes. Where no
@@ -100,7 +104,8 @@ class Collection:
         references: list[Reference] = []
         skipped: dict[Path, str] = {}
         steps = kept(keep)
-        found = sources.find(origins, up, front, steps)
+        auto, front = told(up, front)
+        found = sources.find(origins, keep=steps) if auto else sources.find(origins, up, front, steps)
         if pictures == "views":
             found = as_views(found)
         files_read = []
@@ -121,7 +126,9 @@ class Collection:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
         again = tuple(str(Path(origin).expanduser().absolute()) for origin in origins)
-        return cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front, steps, pictures)
+        up = AUTO if auto else up
+        whole = cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front, steps, pictures)
+        return whole.stood() if auto else whole
 
     @classmethod
     def of(
@@ -131,13 +138,15 @@ class Collection:
 
         ``up``, ``front`` and ``keep`` as for ``load``. Raises CollectionError for a shape that cannot be used.
         """
-        orientation = Orientation.of(up, front)
+        auto, front = told(up, front)
+        orientation = Orientation() if auto else Orientation.of(up, front)
         if not shapes:
             raise CollectionError("no shapes given; a collection needs at least one")
-        by: AxesBy = "author" if sources.is_authors(up, front) else "default"
+        by: AxesBy = "author" if not auto and sources.is_authors(up, front) else "default"
         names, steps = sorted(shapes, key=sources.natural_key), kept(keep)
         references = [_in_memory(name, shapes[name], orientation, by, steps) for name in names]
-        return cls(tuple(references), keep=steps)
+        whole = cls(tuple(references), keep=steps, up=AUTO if auto else "y", front=front if auto else None)
+        return whole.stood() if auto else whole
 
     def as_views(self) -> Collection:
         """The references as objects in pictures, for a procedure that makes meshes; files are read again.
@@ -148,6 +157,20 @@ class Collection:
             return Collection.load(self.origins, up=self.up, front=self.front, keep=self.keep, pictures="views")
         shapes = [(r, Views((view_of(r.shape),)) if isinstance(r.shape, Drawing) else r.shape) for r in self]
         return replace(self, references=tuple(replace(r, shape=shape) for r, shape in shapes), pictures="views")
+
+    def stood(self, taught: Sequence[Mesh] = (), threads: int | None = None) -> Collection:
+        """The collection with up and front of its meshes found, but of those whose author tells them.
+
+        They are found by what the shapes look like, by what most of them share, and by shapes of a procedure that
+        stand right (``taught``). What is not sure stays as the file or its format has it. ``Reference.finding`` says
+        what was found, ``Reference.orientation`` which axes of the file these are.
+        """
+        return replace(self, references=stood(self.references, self.front, taught, threads), taught=bool(taught))
+
+    def oriented(self, orientations: Mapping[str, Orientation]) -> Collection:
+        """The collection with these orientations of its files, by the names of references."""
+        each = (r.stood(orientations[r.name]) if r.name in orientations else r for r in self)
+        return replace(self, references=tuple(each))
 
     def turned(self, quarters: Sequence[int]) -> Collection:
         """The collection with every reference turned about the up axis: see ``Reference.turned``."""

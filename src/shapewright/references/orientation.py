@@ -18,8 +18,9 @@ QUARTER_TURNS = tuple(
 AXES = ("x", "y", "z", "-x", "-y", "-z")
 
 
-AxesBy: TypeAlias = Literal["author", "format", "floor", "default"]
-"""Who says which axes of a file point up and to the front: its author, its format, a floor in a scan, or nobody."""
+AxesBy: TypeAlias = Literal["author", "format", "floor", "default", "found"]
+"""Who says which axes of a file point up and to the front: its author, its format, a floor in a scan, nobody; or they
+were found."""
 
 
 @dataclass(frozen=True)
@@ -56,15 +57,20 @@ class Orientation:
 
     def turned(self, quarters: int) -> Orientation:
         """This orientation and then a number of quarter turns about the up axis, from the front towards the right."""
-        front = self.front
-        for _ in range(quarters % 4):
-            left = -np.cross(_unit(self.up), _unit(front))
-            front = ("-" if left.min() < 0 else "") + "xyz"[int(np.abs(left).argmax())]
-        return Orientation(self.up, front)
+        return self.then(QUARTER_TURNS[quarters % 4])
+
+    def then(self, turn: Floats) -> Orientation:
+        """This orientation and then a turn (3, 3), a rotation by quarter turns about any axes."""
+        _, up, front = np.asarray(turn) @ self.matrix
+        return Orientation(_axis(up), _axis(front))
 
     def invert(self, points: ArrayLike) -> Floats:
         """Points (..., 3) back in the axes of the file."""
         return np.asarray(np.asarray(points, dtype=np.float64) @ self.matrix)
+
+
+def _axis(unit: Floats) -> str:
+    return ("-" if unit.min() < 0.0 else "") + "xyz"[int(np.abs(unit).argmax())]
 
 
 def _unit(axis: str) -> Floats:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,6 +19,9 @@ from shapewright.references.scans.cleaning import cleaned
 from shapewright.references.scans.floor import up_by_floor
 from shapewright.references.scans.steps import Kept
 from shapewright.shapes import Drawing, Floats, Ints, Mesh, Points, ReferenceShape, Transform, Views, shape_digest
+
+if TYPE_CHECKING:
+    from shapewright.axes.finding import Finding
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +37,7 @@ class Reference:
         orientation: how a mesh or points were turned.
         notes: what of the file was left out.
         axes_by: who says that it is to be turned so.
+        finding: how its up and front were looked for; None where they were not.
         unit: that of the file, in metres, where the file or its format states it; else None.
         extent: the longest side that its replicas are to have, in the procedure's unit; None where proportions count
             alone.
@@ -49,6 +54,7 @@ class Reference:
     unit: float | None = None
     extent: float | None = None
     part_of: str | None = None
+    finding: Finding | None = None
 
     @cached_property
     def digest(self) -> str:
@@ -92,16 +98,19 @@ class Reference:
 
         A drawing stays as it is, and so do views.
         """
+        return self.after(QUARTER_TURNS[quarters % 4])
+
+    def after(self, turn: Floats) -> Reference:
+        """The same shape after a rotation (3, 3) by quarter turns about any axes; drawings and views stay so."""
         if isinstance(self.shape, Drawing | Views):
             return self
-        turn = QUARTER_TURNS[quarters % 4]
         transform = Transform(tuple(turn @ self.transform.centre), self.transform.scale)
-        return replace(
-            self,
-            shape=self.shape.transformed(turn),
-            transform=transform,
-            orientation=self.orientation.turned(quarters),
-        )
+        shape, orientation = self.shape.transformed(turn), self.orientation.then(turn)
+        return replace(self, shape=shape, transform=transform, orientation=orientation)
+
+    def stood(self, orientation: Orientation) -> Reference:
+        """The same shape in another orientation of its file."""
+        return self.after(orientation.matrix @ self.orientation.matrix.T)
 
     def of_faces(self, faces: Ints) -> Reference:
         """The same mesh of some of its faces alone, centred and scaled anew. faces: indices, at least one.

@@ -15,6 +15,7 @@ from PIL import Image
 
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import Measures
+from shapewright.report.axes_sheet import SHEET, draw_sheet
 from shapewright.report.explained import boxes, embedded, outlines, quiet, read_explanation, told_cause
 from shapewright.report.scale import GRADES, Scale
 from shapewright.runs.changes import compare
@@ -54,6 +55,10 @@ def write_report(folder: str | Path, previous: str | Path | None = None, explana
         previous=earlier,
         **_contents(record, folder, read_explanation(explanation or folder)),
     )
+    if record["collection"].get("axes"):
+        sheet = io.BytesIO()
+        draw_sheet(folder, record["references"], record["collection"]["axes"]).save(sheet, "PNG")
+        write_file(folder / SHEET, sheet.getvalue())
     path = folder / "report.html"
     write_file(path, page)
     return path

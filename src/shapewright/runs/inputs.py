@@ -45,7 +45,7 @@ def references_of(iteration: Iteration, moved_to: str | None = None) -> Collecti
             f"shapewright.explain(iteration, procedure, references), or {again}"
         )
     try:
-        kept = {"up": record.get("up", "y"), "front": record.get("front")}
+        kept = {} if record.get("axes") else {"up": record.get("up", "y"), "front": record.get("front")}
         collection = Collection.load(origins, **kept, pictures=record.get("pictures", "drawings"))
     except CollectionError as error:
         raise RunError(f"the references cannot be loaded: {error}\nIf they were moved, {again}") from error

@@ -1,0 +1,1 @@
+"""Which way shapes stand: up and front, found from what they look like and from what a procedure makes."""
