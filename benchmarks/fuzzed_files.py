@@ -224,6 +224,45 @@ def pcd_files() -> list[bytes]:
     ]
 
 
+def cloud_ply_files() -> list[bytes]:
+    def head(encoding: str, *names: str) -> bytes:
+        properties = "".join(f"property float {name}\n" for name in names)
+        return f"ply\nformat {encoding} 1.0\nelement vertex 400\n{properties}end_header\n".encode()
+
+    rows = np.hstack([cloud(), np.tile([0.6, 0.0, 0.8], (400, 1))]).astype("<f4")
+    names = (*"xyz", "nx", "ny", "nz")
+    splats = np.hstack([cloud(), np.full((400, 4), 2.0)]).astype("<f4")
+    return [
+        head("ascii", *names) + spaced(rows).encode(),
+        head("binary_little_endian", *names) + rows.tobytes(),
+        head("binary_big_endian", *names) + rows.astype(">f4").tobytes(),
+        head("binary_little_endian", *"xyz", "f_dc_0", "opacity", "scale_0", "rot_0") + splats.tobytes(),
+    ]
+
+
+def las_files(packed: bool) -> list[bytes]:
+    import laspy
+
+    files = []
+    for version, kind in (("1.2", 3), ("1.4", 6)):
+        las = laspy.LasData(laspy.LasHeader(version=version, point_format=kind))
+        las.header.scales = [0.001] * 3
+        las.x, las.y, las.z = cloud().T.astype("f8")
+        las.write(buffer := io.BytesIO(), do_compress=packed)
+        files.append(buffer.getvalue())
+    return files
+
+
+def e57_files() -> list[bytes]:
+    import pye57
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "a.e57")
+        with pye57.E57(str(path), mode="w") as file:
+            file.write_scan_raw({f"cartesian{axis}": cloud()[:, i].astype("f8") for i, axis in enumerate("XYZ")})
+        return [path.read_bytes()]
+
+
 def splat_files() -> list[bytes]:
     row = np.dtype([("position", "<f4", 3), ("scale", "<f4", 3), ("colour", "u1", 4), ("rotation", "u1", 4)])
     table = np.zeros(400, row)
@@ -232,7 +271,7 @@ def splat_files() -> list[bytes]:
 
 
 FORMATS: dict[str, Callable[[], list[bytes]]] = {
-    "ply": ply_files,
+    "ply": lambda: ply_files() + cloud_ply_files(),
     "stl": stl_files,
     "obj": obj_files,
     "off": off_files,
@@ -258,6 +297,8 @@ if find_spec("pxr"):  # the extra [usd]
     FORMATS |= {"usda": cache(lambda: usd_files(False)), "usdc": cache(lambda: usd_files(True))}
 if find_spec("cadquery") and find_spec("cascadio"):  # the extras [cadquery] and [cad]
     FORMATS["step"] = cache(step_files)
+if find_spec("laspy") and find_spec("pye57"):  # the extra [points]
+    FORMATS |= {"las": lambda: las_files(False), "laz": lambda: las_files(True), "e57": e57_files}
 DECLARED = {
     "ply": rb"element \w+ (\d+)",
     "off": rb"OFF\s+(\d+) \d+ \d+|OFF\s+\d+ (\d+) \d+",
