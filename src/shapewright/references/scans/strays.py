@@ -18,9 +18,9 @@ _FEW, _MORE = 0.0003, 0.002
 as the second number says, larger clumps of them are none either."""
 _APART = 0.04  # of the largest extent, that strays are off; closer to the surface nobody can tell
 
-# Measured on 134 pieces of furniture, 10,000 points of each: of these no points are taken, neither where they are
-# sampled all over nor where three sides are seen. Of points at random in a box a tenth larger, those that are .05 off,
-# 94 % are found among .5 % of them, 90 % among 5 %.
+# Measured on 134 pieces of furniture, 10,000 points of each: sampled all over, no points are taken. Seen from three
+# sides one point of one of 27 goes, and 1 to 6 that hang in gaps of 16 of 55 vessels, buildings and trees. Of points at
+# random in a box a tenth larger, those that are .05 off, 94 % are found among .5 % of them, 90 % among 5 %.
 
 
 def strays(positions: Floats) -> NDArray[np.bool_]:
