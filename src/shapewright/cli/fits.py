@@ -11,7 +11,7 @@ import typer
 from rich.markup import escape
 
 from shapewright.cli.console import err, interruptible, iteration_record, print_iteration, print_json
-from shapewright.cli.options import Front, Json, PresetOption, ProcedureArgument, Up, with_settings
+from shapewright.cli.options import Front, Json, Keep, PresetOption, ProcedureArgument, Up, with_settings
 from shapewright.cli.runs import explain_saved, judged_by_marks
 from shapewright.parameters import Parameters
 from shapewright.procedures import load_procedure
@@ -69,6 +69,7 @@ def fit(
     ] = False,
     up: Up = "y",
     front: Front = None,
+    keep: Keep = None,
     explain: Annotated[bool, typer.Option("--explain", help="Say why, and what to write next.")] = False,
     json: Json = False,
 ) -> None:
@@ -84,7 +85,7 @@ def fit(
     if marks:
         settings = Settings.preset(preset, **{**judged_by_marks(folder, settings.judge), **chosen})
     earlier = Iteration.load(previous) if previous else None
-    author, loaded = load_procedure(procedure), Collection.load(references, up=up, front=front)
+    author, loaded = load_procedure(procedure), Collection.load(references, up=up, front=front, keep=keep or ())
     check_writable(folder)
     loaded = suited_to(author, loaded, settings)
     if explain and loaded.in_views:

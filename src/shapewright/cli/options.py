@@ -42,6 +42,10 @@ Up = Annotated[
 Front = Annotated[
     str | None, typer.Option(help="The axis that points to the front.  [dim]default: z, or -y where up is z[/]")
 ]
+Keep = Annotated[
+    list[str] | None,
+    typer.Option(help="What is left in scans: floor, strays or density; give it once for each.", show_default=False),
+]
 Command = TypeVar("Command", bound=Callable[..., None])
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from shapewright.cli.options import Front, PresetOption, Up, with_settings
+from shapewright.cli.options import Front, Keep, PresetOption, Up, with_settings
 from shapewright.settings import Settings
 from shapewright.studio.project.preferences import SHAPE_SECONDS, Preferences
 
@@ -32,6 +32,7 @@ def studio(
     ] = None,
     up: Up = "y",
     front: Front = None,
+    keep: Keep = None,
     preset: PresetOption = "fast",
     auto_fit: Annotated[bool, typer.Option(help="Fit after every save; the page can change that.")] = True,
     host: Annotated[str, typer.Option(help="Address to listen on; others than this machine's own need the next.")] = (
@@ -46,7 +47,7 @@ def studio(
     from shapewright.studio.server.launch import serve
 
     serve(
-        Project.of(folder, procedure, references, up, front),
+        Project.of(folder, procedure, references, up, front, tuple(keep or ())),
         Preferences(auto_fit=auto_fit, preset=preset, settings=Settings.preset(preset, **chosen)),
         host,
         port,

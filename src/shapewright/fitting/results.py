@@ -140,6 +140,7 @@ def recorded(
             "origins": list(references.origins),
             "up": references.up,
             "front": references.front,
+            "keep": list(references.keep),
             "pictures": references.pictures,
             "axes": {each.name: axes_record(each) for each in references} if references.up == AUTO else None,
             "count": len(references),

@@ -130,6 +130,7 @@ def _pair(
         "follows": None,
         "notes": [],
         **reference,
+        "points": reference.get("points"),
         "grade": grade,
         "value": scale.value(reference),
         "title": scale.title(reference),
@@ -170,7 +171,7 @@ def _shown(parameter: dict[str, Any], reference: dict[str, Any]) -> list[Any] | 
 
 def _details(pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """What the page's script shows of each pair when it is opened."""
-    facts = ("name", "causes", "quiet", "title", "regions", "error", "path", "triangles", "values")
+    facts = ("name", "causes", "quiet", "title", "regions", "error", "path", "triangles", "points", "values")
     kept = (*facts, "follows", "notes", "colour", "tint", "link")
     return [
         {key: pair[key] for key in kept}

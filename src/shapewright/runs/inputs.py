@@ -46,6 +46,7 @@ def references_of(iteration: Iteration, moved_to: str | None = None) -> Collecti
         )
     try:
         kept = {} if record.get("axes") else {"up": record.get("up", "y"), "front": record.get("front")}
+        kept["keep"] = record.get("keep", ())
         collection = Collection.load(origins, **kept, pictures=record.get("pictures", "drawings"))
     except CollectionError as error:
         raise RunError(f"the references cannot be loaded: {error}\nIf they were moved, {again}") from error

@@ -13,7 +13,7 @@ from shapewright.judging.verdict import Grade, Region
 from shapewright.parameters import Parameters
 from shapewright.references.readers.svg import read_svg
 from shapewright.settings import JudgeName
-from shapewright.shapes import Mesh, ReferenceShape, Shape
+from shapewright.shapes import Mesh, Points, ReferenceShape, Shape
 from shapewright.shapes.files import read_glb
 
 
@@ -115,6 +115,7 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
         "error": result.error,
         "replica": replica_path(result.replica, slug),
         "triangles": len(result.reference.faces) if isinstance(result.reference, Mesh) else None,
+        "points": len(result.reference) if isinstance(result.reference, Points) else None,
         "notes": list(result.notes),
         "follows": result.follows,
     }

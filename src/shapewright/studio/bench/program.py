@@ -257,7 +257,8 @@ class Bench:
             elif isinstance(shape, Mesh):
                 payload = shape_messages.mesh_message(shape, id=0, slug=request.slug, shape="reference")
             elif isinstance(shape, Points):
-                payload = shape_messages.mesh_message(discs(shape), id=0, slug=request.slug, shape="reference")
+                head = {"id": 0, "slug": request.slug, "shape": "reference", "discs": True}
+                payload = shape_messages.mesh_message(discs(shape), **head)
             else:
                 shape = shape_messages.silhouette(shape) if isinstance(shape, Views) else shape
                 message = shape_messages.drawing_message(shape, None, id=0, slug=request.slug, shape="reference")

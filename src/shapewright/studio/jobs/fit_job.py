@@ -25,7 +25,7 @@ def collection(origin: Origin, suit: Callable[[Collection], Collection] = lambda
     from shapewright.references import Collection
 
     listed = listing(origin)
-    whole = suit(Collection.load(origin.source, up=origin.up, front=origin.front))
+    whole = suit(Collection.load(origin.source, up=origin.up, front=origin.front, keep=origin.keep))
     outside = {path.absolute() for path in listed.skipped}
     inside = tuple(r for r in whole.references if r.path is None or r.path.absolute() not in outside)
     return replace(whole, references=inside, skipped={**whole.skipped, **listed.skipped})

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from shapewright.references.readers.formats import MESHES
+from shapewright.references.readers.formats import CLOUDS, MESHES
 from shapewright.references.sources import Source, find
 from shapewright.storage import file_names
 
@@ -28,6 +28,7 @@ class Origin:
     up: str = "y"  # axis of the files
     front: str | None = None  # axis of the files; None for the usual one
     confine: str | None = None  # no file may lie outside this folder, links followed; None: the author named the source
+    keep: tuple[str, ...] = ()  # what is left in scans
 
 
 @dataclass(frozen=True)
@@ -41,12 +42,12 @@ class Listing:
     def dimension(self) -> Literal[2, 3]:
         """2 where all are drawings, else 3."""
         kinds = {source.path.suffix.lower() for source in self.sources.values()}
-        return 2 if kinds and not kinds & set(MESHES) else 3
+        return 2 if kinds and not kinds & {*MESHES, *CLOUDS} else 3
 
 
 def listing(origin: Origin) -> Listing:
     """The references of a source, unread. Raises CollectionError as ``find`` does."""
-    sources = find([origin.source], origin.up, origin.front)
+    sources = find([origin.source], origin.up, origin.front, origin.keep)
     home = Path(origin.confine).resolve() if origin.confine else None
     skipped = {one.place: one.refusal for one in sources if one.refusal}
     for one in sources:
@@ -63,6 +64,7 @@ def kept_picture(cache: Path, source: Source) -> Path | None:
         state = source.path.stat()
     except OSError:
         return None
-    named = (source.path.resolve(), state.st_mtime_ns, state.st_size, source.orientation, PICTURE, _PICTURE_FORMAT)
+    stands = (source.orientation, source.keep)
+    named = (source.path.resolve(), state.st_mtime_ns, state.st_size, *stands, PICTURE, _PICTURE_FORMAT)
     digest = hashlib.blake2b(repr(named).encode(), digest_size=16).hexdigest()
     return cache / PICTURES / f"{digest}.png"

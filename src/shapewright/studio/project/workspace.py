@@ -57,6 +57,7 @@ class Project:
         references: str | None = None,
         up: str = "y",
         front: str | None = None,
+        keep: tuple[str, ...] = (),
     ) -> Project:
         """The project in a folder. references: another source than its folder ``references``, which may lie anywhere.
 
@@ -72,9 +73,9 @@ class Project:
             raise ProjectError(f"{path}: a link that leads out of the project; put the file itself there")
         if references is None:
             (home / "references").mkdir(exist_ok=True)
-            origin = Origin(str(home / "references"), up, front, confine=str(home))
+            origin = Origin(str(home / "references"), up, front, confine=str(home), keep=keep)
         else:
-            origin = Origin(str(Path(references).expanduser().absolute()), up, front)
+            origin = Origin(str(Path(references).expanduser().absolute()), up, front, keep=keep)
         return cls(home, path, origin)
 
     @property

@@ -48,6 +48,7 @@ class MeshHead(ShapeMessage, frozen=True, kw_only=True, tag="mesh"):
 
     vertices: int
     triangles: int
+    discs: bool = False  # triangles stand for points: their edges are none of the shape
     label_names: list[str]  # ``labels`` are indices into it, -1 without a label; no buffer when nothing is labelled
     buffers: list[Buffer] = field(default_factory=list)
 

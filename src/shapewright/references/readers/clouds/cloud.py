@@ -13,7 +13,7 @@ LEAST = 100
 """Fewer points than these show no surface: with a hundred a chair's seat has some ten of them."""
 MOST = 20_000_000
 """Points of a file, whose positions take half a gigabyte. A packed file can announce any number."""
-_LARGEST = 1e307  # sums of coordinates have to stay below the largest number, 1.8e308
+_LARGEST = 1e100  # coordinates whose cubes are numbers still
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ def usable(cloud: Cloud) -> tuple[Points, tuple[str, ...]]:
         raise UnreadableError("; ".join([few, *notes]))
     positions = cloud.positions[finite] if lost else cloud.positions
     size = float(np.ptp(positions, axis=0).max()) if np.abs(positions).max() < _LARGEST else np.inf
-    if not np.finfo(np.float64).tiny < size < np.inf:
+    if not 1.0 / _LARGEST < size < np.inf:
         raise UnreadableError("all its points lie at one place" if size < 1.0 else "too large to measure")
     normals, seen_from = cloud.normals, cloud.seen_from
     if normals is not None:
