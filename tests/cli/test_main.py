@@ -6,6 +6,7 @@ import sys
 import time
 from functools import partial
 
+import numpy as np
 import pytest
 
 from shapewright.modelling.solids import box
@@ -109,6 +110,14 @@ def test_evaluate_prints_a_row_for_each_parameter(project):
     found = last_json(shapewright(*compared, cwd=project))["variants"]
     assert [variant["cameras"] for variant in found] == ["fixed", "learned"]
     assert all("height" in variant["parameters"] for variant in found)
+
+
+def test_scans_that_cannot_be_explained_are_refused_before_the_fit(project):
+    points = np.random.default_rng(0).random((300, 3))
+    (project / "scan.xyz").write_text("\n".join(f"{x:.4f} {y:.4f} {z:.4f}" for x, y, z in points))
+    run = shapewright("fit", "stool.py", "scan.xyz", *QUICK, "--explain", cwd=project)
+    assert run.returncode == 1 and "the references are points" in run.stderr
+    assert not list(project.glob("runs/*/iteration.json"))
 
 
 def test_describe_shows_the_space(project):

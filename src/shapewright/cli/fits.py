@@ -74,7 +74,6 @@ def fit(
     json: Json = False,
 ) -> None:
     """Find the parameters of every reference, build replicas, and report what the procedure cannot make yet."""
-    from shapewright.feedback.explanation import IN_VIEWS
     from shapewright.fitting.pictures import suited_to
     from shapewright.references import Collection
     from shapewright.runs.iteration import Iteration
@@ -88,8 +87,10 @@ def fit(
     author, loaded = load_procedure(procedure), Collection.load(references, up=up, front=front, keep=keep or ())
     check_writable(folder)
     loaded = suited_to(author, loaded, settings)
-    if explain and loaded.in_views:
-        raise RunError(f"{IN_VIEWS}: fit without --explain")
+    if explain:
+        from shapewright.feedback.explanation import check_explainable
+
+        check_explainable(loaded)
     known = suggested_parameters(previous, author.space.names) if previous else None
     iteration, folder = fit_and_save(author, loaded, settings, folder, earlier, explain, known)
     if json:

@@ -31,7 +31,7 @@ from shapewright.shapes import Drawing, Mesh, Points
 from shapewright.survey.preparation import prepared
 from shapewright.threads import in_threads
 
-IN_VIEWS = (
+_IN_VIEWS = (
     "the references are pictures of objects, of which nobody knows all sides: they cannot be explained yet. The report "
     "marks what is missing and what is too much in each picture"
 )
@@ -86,14 +86,14 @@ def explain(
         KeyError: the collection lacks a reference of the iteration.
     """
     references = references or references_of(iteration)
-    if iteration.collection.get("pictures") == "views" or references.in_views:
-        raise RunError(IN_VIEWS)
+    if iteration.collection.get("pictures") == "views":
+        raise RunError(_IN_VIEWS)
+    check_explainable(references)
     settings = replace(iteration.settings, workers=workers or iteration.settings.workers)
     iteration = iteration.fitted
     references = prepared(for_procedure(references, procedure), settings, settings.workers)
     collection = _collection(references, iteration)
-    if all(isinstance(reference.shape, Points) for reference in collection):
-        raise RunError(_POINTS)
+    check_explainable(collection)
     stages = Stages(progress, _SHARES if suggest and references.kind is Mesh else _OF_CAUSES)
     with Workers.of(procedure, settings) as crew:
         stages.begin("describe", len(collection))
@@ -113,6 +113,14 @@ def explain(
         changes, tried = suggestions(procedure, unsolved, crew, judge, stages, rules=rules) if suggest else ((), ())
         stages.end()
     return replace(_explanation(procedure, cases, changes, _failed(iteration, built), stages), tried=tried)
+
+
+def check_explainable(references: Collection) -> None:
+    """Raises RunError for pictures of objects, and where all references are points."""
+    if references.in_views:
+        raise RunError(_IN_VIEWS)
+    if all(isinstance(reference.shape, Points) for reference in references):
+        raise RunError(_POINTS)
 
 
 def _explanation(
