@@ -79,7 +79,8 @@ def then(*edits: Edit) -> Edit:
     return edit
 
 
-FIVE, TWO, TABLE, CHAIR = "tables/v5.py", "table/v2.py", "table/v3.py", "chair/v3.py"
+FIVE, TWO = "tables/v5.py", "categories/table/v2.py"
+TABLE, CHAIR = "categories/table/v3.py", "categories/chair/v3.py"
 TIERS = "    tiers: Annotated[int, Range(0, 2, when=room_for_tiers)] = 0,\n"
 BACK = """    yield back.bend(angle, "x", towards="z", fixed=0.5).path(*leaning).tag("back")\n"""
 THICKNESS = "    back_thickness: Annotated[float, Range(0.02, 0.2)] = 0.05,\n"
