@@ -233,5 +233,6 @@ def test_what_was_found_of_up_and_front_is_told_before_anything_long_starts(proj
     told, _, _ = run.stderr.partition("training")
     assert "finding up and front" in told and "no up is to be seen: 3 (block 0, block 1, block 2)" in told
     axes = last_json(run)["axes"]
-    assert {name: (each["up"], each["by"]) for name, each in axes.items()} == dict.fromkeys(axes, ("y", "default"))
+    assert set(axes) == {"block 0", "block 1", "block 2"} and not any(each["has_up"] for each in axes.values())
+    assert all((each["by"] == "found") == ((each["up"], each["front"]) != ("y", "z")) for each in axes.values())
     assert (project / "runs" / "001" / "axes.png").is_file()

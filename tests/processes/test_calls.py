@@ -95,7 +95,7 @@ def test_an_interrupt_ends_what_is_under_way():
         def interrupt():
             raise KeyboardInterrupt
 
-        calls._pool.run, run = lambda tasks, serve: run(tasks, serve, interrupt), calls._pool.run
+        calls._pool.run, run = lambda tasks, serve, most: run(tasks, serve, interrupt, most), calls._pool.run
         with pytest.raises(KeyboardInterrupt):
             calls.results([("sleeps", Limits(seconds=60.0))])
     assert process.poll() is not None

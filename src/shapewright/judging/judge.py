@@ -186,11 +186,10 @@ class Judge:
         rows = [i for i, (target, grade) in pairs if target.visible and grade != "replicated"]
         names = [self.references.names[i] for i in rows]
         left = None
-        if replicas is not None and rows and self.settings.judge != "paper" and not self.settings.cut_absolute:
-            shapes = [(self.targets[i].shape, replicas[i]) for i in rows]
-            pairs_left = [(shape, replica) for shape, replica in shapes if isinstance(shape, Mesh | Drawing)]
-            found = in_threads(lambda pair: remainder(*pair), pairs_left, self.settings.workers)
-            left = np.stack(found) if found else None
+        fine = self.settings.judge != "paper" and not self.settings.cut_absolute and not self.references.in_views
+        if replicas is not None and rows and fine:
+            shapes = [(self.references.references[i].shape, replicas[i]) for i in rows]
+            left = np.stack(in_threads(lambda pair: remainder(*pair), shapes, self.settings.workers))
         return type(self.targets[0]).groups(names, self._targets(rows), self.settings, left)
 
     def _likenesses(self, shapes: Sequence[Shape | None], rows: Rows | None) -> list[float]:

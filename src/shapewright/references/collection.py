@@ -16,7 +16,6 @@ from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.orientation import AxesBy, Orientation
 from shapewright.references.readers import formats as files
 from shapewright.references.readers.pictures import KINDS as PICTURES
-from shapewright.references.readers.views.reader import view_of
 from shapewright.references.reading import Readers
 from shapewright.references.reference import Reference, normalised
 from shapewright.references.scans.steps import Kept, kept
@@ -153,6 +152,8 @@ class Collection:
 
         Drawings in memory are silhouettes. Raises CollectionError where nothing can be read so.
         """
+        from shapewright.references.readers.views.reader import view_of  # numba loads slowly
+
         if self.origins:
             return Collection.load(self.origins, up=self.up, front=self.front, keep=self.keep, pictures="views")
         shapes = [(r, Views((view_of(r.shape),)) if isinstance(r.shape, Drawing) else r.shape) for r in self]

@@ -33,7 +33,7 @@ def case(reference, **values):
 
 def standing(reference, **values):
     with Workers(seat, 1) as crew:
-        (found,) = standings([case(reference, **values)], None, crew, 1)
+        (found,) = standings([case(reference, **values)], None, crew, 1, [None])
     return found
 
 

@@ -32,7 +32,6 @@ from shapewright.references.readers.stl import read_stl
 from shapewright.references.readers.svg import read_svg
 from shapewright.references.readers.threemf.build import read_3mf
 from shapewright.references.readers.usd.scene import read_usd
-from shapewright.references.readers.views.reader import read_view, view_of
 from shapewright.shapes import Drawing, Floats, Ints, Mesh, ReferenceShape, Views
 
 _POLYGONS: dict[str, Callable[[bytes], Polygons | Cloud]] = {
@@ -113,12 +112,8 @@ def contents(path: Path, view: bool = False, mask: Path | None = None) -> Conten
     if data.startswith(b"/annex/objects/"):
         raise UnreadableError(f"a pointer of git-annex, not the file itself; {_FETCH}")
     try:
-        if view and kind in PICTURES:
-            seen, notes = read_view(data, mask.read_bytes() if mask else None)
-            return Contents(Views((seen,)), notes)
         if view and kind in _DRAWINGS:
-            drawing, notes = _DRAWINGS[kind](data)
-            return Contents(Views((view_of(drawing),)), notes)
+            return _view(kind, data, mask)
         if kind in _DRAWINGS:
             return Contents(*_DRAWINGS[kind](data))
         if kind in _CLOUDS or kind in _CLOUD_FILES:
@@ -141,6 +136,17 @@ def contents(path: Path, view: bool = False, mask: Path | None = None) -> Conten
     except UnreadableError as error:
         raise UnreadableError("; ".join([str(error), *scene.notes])) from error
     return Contents(mesh, (*scene.notes, *lost), scene.unit, scene.up)
+
+
+def _view(kind: str, data: bytes, mask: Path | None) -> Contents:
+    from shapewright.references.readers.views.reader import read_view, view_of  # numba loads slowly
+
+    if kind in PICTURES:
+        seen, notes = read_view(data, mask.read_bytes() if mask else None)
+    else:
+        drawing, notes = _DRAWINGS[kind](data)
+        seen = view_of(drawing)
+    return Contents(Views((seen,)), notes)
 
 
 def _points(cloud: Cloud) -> Contents:

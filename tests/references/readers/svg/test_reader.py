@@ -267,7 +267,10 @@ def test_what_is_referred_to(content, expected):
 @pytest.mark.parametrize(
     ("content", "note"),
     [
-        ('<text x="9">no</text>', "1 x text left out"),
+        (
+            '<text font-family="Nowhere">no</text>',
+            "2 x letter of the font Nowhere, which is not on this machine, left out",
+        ),
         ('<image href="data:image/png;base64,AA"/>', "1 x image left out"),
         ("<foreignObject/>", "1 x foreignObject left out"),
         ("<blink/>", "1 x <blink> left out"),
@@ -349,7 +352,7 @@ def test_files_as_programs_write_them():
     [
         (b"<svg><rect", "^broken: no XML"),
         (b"<html><svg/></html>", "outermost element is <html>"),
-        (file("<text>no</text>"), "nothing in it is dark.*1 x text left out"),
+        (file('<text font-family="Nowhere">no</text>'), "nothing in it is dark.*2 x letter of the font Nowhere"),
         (file("<g/>"), "nothing in it is dark"),
     ],
 )

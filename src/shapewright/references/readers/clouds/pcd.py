@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.clouds.cloud import Cloud
-from shapewright.references.readers.clouds.lzf import MOST_GROWTH, unpacked
 from shapewright.references.readers.text import PADDING, plain, rows, shown
 from shapewright.shapes import Floats
 
@@ -132,6 +131,8 @@ def _of_bytes(header: _Header, body: bytes) -> _Columns:
 
 def _of_packed(header: _Header, body: bytes) -> _Columns:
     """The fields one after the other, packed together behind the two sizes."""
+    from shapewright.references.readers.clouds.lzf import MOST_GROWTH, unpacked  # numba loads slowly
+
     packed, size = (int(n) for n in np.frombuffer(body, "<u4", 2)) if len(body) >= 8 else (0, 0)
     sizes = [np.dtype(kind).itemsize * header.points for kind in header.kinds]
     if packed > len(body) - 8 or not packed:
