@@ -336,6 +336,12 @@ def test_a_dark_frame_around_a_light_sheet_is_no_dark_page():
     assert notes == () and area.area == pytest.approx(200**2 - 190**2 + 2000)
 
 
+def test_a_broken_file_before_changes_nothing():
+    with pytest.raises(UnreadableError):
+        read_svg(b"<svg><rect")
+    assert read_svg(file(f'<g inkscape:label="layer">{BAR}</g>'))[0].geometry.area == pytest.approx(2000)
+
+
 def test_files_as_programs_write_them():
     illustrator = '<!DOCTYPE svg [<!ENTITY ns "http://www.w3.org/2000/svg"><!ENTITY dark "fill:#123;">]>'
     marked = BAR.replace("/>", ' style="&dark;"/>')

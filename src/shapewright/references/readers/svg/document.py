@@ -110,9 +110,11 @@ def _tree(data: bytes) -> Element:
         "huge_tree": b"<!ENTITY" not in data,  # pictures may be long, entities may not grow without end
     }
     data = data.lstrip() if data[:1].isspace() else data
+    parser = etree.XMLParser(**options)
     try:
-        return etree.fromstring(data, etree.XMLParser(**options))
+        return etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
-        if {entry.domain_name for entry in error.error_log if entry.level_name != "WARNING"} == {"NAMESPACE"}:
+        # The parser's own log: that of the error holds errors of earlier files, too.
+        if {entry.domain_name for entry in parser.error_log if entry.level_name != "WARNING"} == {"NAMESPACE"}:
             return etree.fromstring(data, etree.XMLParser(recover=True, **options))
         raise UnreadableError(f"broken: no XML: {error.msg}") from error
