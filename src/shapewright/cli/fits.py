@@ -74,18 +74,20 @@ def fit(
     json: Json = False,
 ) -> None:
     """Find the parameters of every reference, build replicas, and report what the procedure cannot make yet."""
-    from shapewright.fitting.pictures import suited_to
     from shapewright.references import Collection
-    from shapewright.runs.iteration import Iteration
 
     folder = (out_dir or next_run(Path("runs"))).absolute()
     check_free(folder)
     settings = Settings.preset(preset, **chosen)
     if marks:
         settings = Settings.preset(preset, **{**judged_by_marks(folder, settings.judge), **chosen})
-    earlier = Iteration.load(previous) if previous else None
     author, loaded = load_procedure(procedure), Collection.load(references, up=up, front=front, keep=keep or ())
     check_writable(folder)
+    # torch takes seconds to load: what is wrong with the files is said before.
+    from shapewright.fitting.pictures import suited_to
+    from shapewright.runs.iteration import Iteration
+
+    earlier = Iteration.load(previous) if previous else None
     loaded = suited_to(author, loaded, settings)
     if explain:
         from shapewright.feedback.explanation import check_explainable
