@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice, product
 from types import SimpleNamespace
 from typing import Any, TypeAlias
@@ -57,6 +58,10 @@ class ParameterSpace:
     def names(self) -> tuple[str, ...]:
         return tuple(parameter.name for parameter in self.parameters)
 
+    @cached_property
+    def _is_nested(self) -> bool:
+        return any("." in name for name in self.names)
+
     @property
     def defaults(self) -> Parameters:
         return {parameter.name: parameter.default for parameter in self.parameters}
@@ -78,7 +83,7 @@ class ParameterSpace:
 
     def active(self, values: Mapping[str, Value]) -> tuple[str, ...]:
         """Names of the parameters that matter for these values, by their ``when``."""
-        namespace = _namespace(values)
+        namespace = _namespace(values) if self._is_nested else SimpleNamespace(**values)
         return tuple(p.name for p in self.parameters if p.when is None or _holds(p, namespace))
 
     def canonical(self, values: Mapping[str, Value]) -> Parameters:

@@ -89,7 +89,8 @@ def make_dataset(
 
 def encoded(space: ParameterSpace, parameters: Sequence[Parameters]) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     """(N, P) each: the targets of vectors, and whether each parameter matters there."""
-    active = np.array([[name in set(space.active(values)) for name in space.names] for values in parameters])
+    mattering = [set(space.active(values)) for values in parameters]
+    active = np.array([[name in names for name in space.names] for names in mattering])
     return np.array([space.encode(values) for values in parameters], dtype=np.float32), active
 
 

@@ -12,9 +12,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from shapewright.parameters import ParameterSpace
+from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.procedures.annotations import Argument, SignatureError, read
-from shapewright.procedures.bindings import Binding
+from shapewright.procedures.bindings import Binding, Plain
 from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.places import Place
 
@@ -42,21 +42,30 @@ class Signature:
 
     def call(self, function: Callable[..., Any], args: Sequence[Any], given: Mapping[str, Any]) -> Any:
         """Call the function with values of the space, or with its own arguments; what is left out is at its default."""
-        arguments = {name: value for name, value in given.items() if name not in self._flat}
-        for name, binding in list(self.bindings.items())[len(args) :]:
-            if not set(binding.names).intersection(given):
-                if name not in given:
-                    arguments[name] = binding(self.space.defaults)
-            elif name in given and binding.names[0] not in given:  # called with the function's own argument
-                arguments[name] = given[name]
-            else:
-                arguments[name] = binding({**self.space.defaults, **given})
+        values = {**self._defaults, **given}
+        arguments = {name: value for name, value in values.items() if name not in self._inner}
+        for name, binding in self._made.items():
+            own = name in given and binding.names[0] not in given  # called with the function's own argument
+            arguments[name] = given[name] if own else binding(values)
+        for name in list(self.bindings)[: len(args)] if args else ():
+            if name not in given:  # a second value of an argument is the function's to refuse
+                del arguments[name]
         before = [arguments.pop(name) for name in self.positional[len(args) :]]
         return function(*args, *before, **arguments)
 
     @functools.cached_property
-    def _flat(self) -> frozenset[str]:
-        return frozenset(self.space.names)
+    def _defaults(self) -> Parameters:
+        return self.space.defaults
+
+    @functools.cached_property
+    def _made(self) -> dict[str, Binding]:
+        """The bindings of the arguments that are made of values; each other argument is a value itself."""
+        return {name: binding for name, binding in self.bindings.items() if not isinstance(binding, Plain)}
+
+    @functools.cached_property
+    def _inner(self) -> frozenset[str]:
+        """The values that are no arguments themselves."""
+        return frozenset(self.space.names) - self.bindings.keys()
 
 
 def signature_of(function: Callable[..., Any], names: Mapping[str, Any] | None = None, skip: int = 0) -> Signature:
