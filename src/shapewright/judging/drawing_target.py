@@ -17,7 +17,7 @@ from shapewright.comparison.remainders import CUT, mixed
 from shapewright.judging.drawn_fidelity import DrawnFidelity
 from shapewright.judging.paper import Metric, vif_metric
 from shapewright.judging.target import Measures
-from shapewright.judging.verdict import Evidence, Grade, grade_of
+from shapewright.judging.verdict import Evidence, Grade, grade_by
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Floats, Shape
 
@@ -90,9 +90,7 @@ class DrawingTarget:
         return self.metric.accepts(measures.distance)
 
     def grade(self, measures: Measures) -> Grade:
-        if self._settings.judge == "paper":
-            return "replicated" if self.compatible(measures) else "different"
-        return grade_of(measures.fidelity, self._settings)
+        return grade_by(self._settings, measures.fidelity, self.compatible(measures))
 
     @classmethod
     def groups(

@@ -21,7 +21,7 @@ from shapewright.judging.calibration import is_same
 from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.paper import FAR, Metric, light_field_metric
 from shapewright.judging.target import Measures
-from shapewright.judging.verdict import Evidence, Grade, grade_of
+from shapewright.judging.verdict import Evidence, Grade, grade_by
 from shapewright.settings import Settings
 from shapewright.shapes import Floats, Mesh, Shape
 
@@ -119,9 +119,7 @@ class MeshTarget:
         return is_same(learned, measures.distance, measures.iou, measures.depth)
 
     def grade(self, measures: Measures) -> Grade:
-        if self._settings.judge == "paper":
-            return "replicated" if self.compatible(measures) else "different"
-        return grade_of(measures.fidelity, self._settings)
+        return grade_by(self._settings, measures.fidelity, self.compatible(measures))
 
     @classmethod
     def groups(

@@ -74,6 +74,13 @@ def _log_odds(value: float) -> float:
     return math.log(value / (1.0 - value))
 
 
+def grade_by(settings: Judging, value: float, compatible: bool) -> Grade:
+    """The grade by the judge of the settings: by a fidelity, or by whether the paper's measure calls it compatible."""
+    if settings.judge == "paper":
+        return "replicated" if compatible else "different"
+    return grade_of(value, settings)
+
+
 def grade_of(value: float, settings: Judging) -> Grade:
     """The grade of a fidelity, by the two cuts of the settings; NaN is different."""
     if value >= settings.replicated:

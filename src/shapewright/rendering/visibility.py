@@ -7,6 +7,7 @@ neither closed surfaces nor normals help.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import product
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 
 from shapewright.rendering.cameras import Camera, pack
 from shapewright.rendering.raster import Singles, view
-from shapewright.shapes import Floats, Mesh
+from shapewright.shapes import Floats, Ints, Mesh
 
 _DISTANCE = 4.0
 """Of the cameras to the origin, in units of the mesh's largest extent: far enough for little perspective."""
@@ -42,7 +43,7 @@ class AllRound:
 
     def shows(self, points: Floats, normals: Floats) -> NDArray[np.bool_]:
         """Whether some view shows each point (N, 3) of the surface. normals: (N, 3), of either orientation."""
-        return np.asarray(_shown(points, normals, pack(self.cameras), self.inverse_depths))
+        return np.asarray(_shown(points, normals, pack(self.cameras), self.inverse_depths, True) != 0)
 
     def encloses(self, points: Floats) -> NDArray[np.bool_]:
         """Whether every view hides each point (N, 3) behind the surface, so that it lies inside the mesh."""
@@ -65,10 +66,21 @@ def _all_round(radius: float) -> tuple[Camera, ...]:
     )
 
 
+def shown_by(points: Floats, normals: Floats, cameras: Sequence[Camera], inverse_depths: Singles) -> Ints:
+    """(N,): which cameras show each point (N, 3) of a surface, a bit for each; at most 60 cameras.
+
+    normals: (N, 3), of either orientation. inverse_depths: (C, size, size), see ``AllRound``.
+    """
+    return np.asarray(_shown(points, normals, pack(cameras), inverse_depths, False))
+
+
 @njit(nogil=True, cache=True)
-def _shown(points: Floats, normals: Floats, cameras: Floats, views: Singles) -> NDArray[np.bool_]:
-    """Whether a view, of packed cameras, shows each point: nothing is nearer to it by more than a pixel's slant."""
-    seen = np.zeros(len(points), np.bool_)
+def _shown(points: Floats, normals: Floats, cameras: Floats, views: Singles, first: bool) -> Ints:
+    """Bits of the views, of packed cameras, that show each point: nothing is nearer by more than a pixel's slant.
+
+    first: whether the first such view is enough.
+    """
+    seen = np.zeros(len(points), np.int64)
     half = views.shape[1] / 2.0
     last = views.shape[1] - 1
     for n in range(len(points)):
@@ -93,6 +105,7 @@ def _shown(points: Floats, normals: Floats, cameras: Floats, views: Singles) -> 
             if views[c, row, column] > 0.0:
                 slant = math.sqrt(max(1.0 - cosine * cosine, 0.0)) / cosine
                 if away - 1.0 / views[c, row, column] < (0.25 + slant) / scale:
-                    seen[n] = True
-                    break
+                    seen[n] |= np.int64(1) << c
+                    if first:
+                        break
     return seen

@@ -10,14 +10,14 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from shapewright.rendering.cameras import Camera, pack
+from shapewright.rendering.cameras import Camera
 from shapewright.rendering.raster import view
+from shapewright.rendering.visibility import shown_by
 from shapewright.shapes import Floats, Ints, Mesh
 
 _DISTANCE = 4.0  # of the cameras to the origin, in units of the largest extent: far enough for little perspective
 _FIELD = math.degrees(2.0 * math.asin(0.87 / _DISTANCE))  # in which all of a normalised mesh fits
 _SIZE = 64  # pixels along the side of a picture
-_STEEPEST = 0.25  # cosine between a face and the view below which a scanner sees nothing of it
 _UNEXPLAINED = 2.0
 """What a point of the replica counts that is seen from a side and not explained; one that is explained counts 1. So a
 side was not seen where less than two thirds of what it shows are explained."""
@@ -51,9 +51,7 @@ def _cameras_at(places: tuple[tuple[float, float, float], ...]) -> tuple[Camera,
 def visible(mesh: Mesh, points: Floats, normals: Floats, cameras: tuple[Camera, ...]) -> Ints:
     """(N,): which cameras show each point (N, 3) of a normalised mesh, a bit for each camera; at most 60 cameras."""
     views = np.stack([view(mesh, camera, _SIZE)[1] for camera in cameras])
-    bits = np.zeros(len(points), dtype=np.int64)
-    _mark(points, normals, pack(cameras), views, bits)
-    return bits
+    return shown_by(points, normals, cameras, views)
 
 
 def all_sides(places: Floats | None) -> tuple[Camera, ...]:
@@ -115,32 +113,3 @@ def _cover(bits: Any, explained: Any, count: int) -> Any:
         if best < 0:
             return chosen
         chosen |= np.int64(1) << best
-
-
-@njit(nogil=True, cache=True)
-def _mark(points: Any, normals: Any, cameras: Any, views: Any, bits: Any) -> None:
-    """As ``visibility.AllRound.shows``, camera by camera."""
-    half, last = views.shape[1] / 2.0, views.shape[1] - 1
-    for n in range(len(points)):
-        for c in range(len(cameras)):
-            camera = cameras[c]
-            right, up, towards, length, cosine = 0.0, 0.0, 0.0, 0.0, 0.0
-            for axis in range(3):
-                place = points[n, axis]
-                right += camera[axis] * place
-                up += camera[3 + axis] * place
-                towards += camera[6 + axis] * place
-                ray = camera[9] * camera[6 + axis] - place
-                length += ray * ray
-                cosine += ray * normals[n, axis]
-            cosine = abs(cosine) / math.sqrt(length)
-            if cosine <= _STEEPEST:
-                continue
-            away = camera[9] - towards
-            scale = camera[10] / away * half
-            column = min(max(int(half + scale * right), 0), last)
-            row = min(max(int(half - scale * up), 0), last)
-            if views[c, row, column] > 0.0:
-                slant = math.sqrt(max(1.0 - cosine * cosine, 0.0)) / cosine
-                if away - 1.0 / views[c, row, column] < (0.25 + slant) / scale:
-                    bits[n] |= np.int64(1) << c

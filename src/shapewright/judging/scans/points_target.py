@@ -18,7 +18,7 @@ from shapewright.judging.paper import Metric
 from shapewright.judging.scans.likeness import likeness
 from shapewright.judging.scans.shortfall import compare, regions
 from shapewright.judging.target import Measures
-from shapewright.judging.verdict import Evidence, Grade, grade_of
+from shapewright.judging.verdict import Evidence, Grade, grade_by
 from shapewright.rendering.splats import discs
 from shapewright.settings import Settings
 from shapewright.shapes import Floats, Mesh, Points, Shape
@@ -112,9 +112,7 @@ class PointsTarget:
         return self.metric.accepts(measures.distance)
 
     def grade(self, measures: Measures) -> Grade:
-        if self._settings.judge == "paper":
-            return "replicated" if self.compatible(measures) else "different"
-        return grade_of(measures.fidelity, self._settings)
+        return grade_by(self._settings, measures.fidelity, self.compatible(measures))
 
     @classmethod
     def groups(

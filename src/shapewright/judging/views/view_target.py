@@ -12,7 +12,7 @@ from shapewright.comparison.blurred import UNIT
 from shapewright.comparison.grouping import Group, group
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import Measures
-from shapewright.judging.verdict import Evidence, Grade, grade_of
+from shapewright.judging.verdict import Evidence, Grade, grade_by
 from shapewright.judging.views.view_fidelity import InView, ViewFidelity
 from shapewright.search.views.camera_search import ViewsDifference, parts_of
 from shapewright.settings import Settings
@@ -86,9 +86,7 @@ class ViewTarget:
         return self.metric.accepts(measures.distance)
 
     def grade(self, measures: Measures) -> Grade:
-        if self._settings.judge == "paper":
-            return "replicated" if self.compatible(measures) else "different"
-        return grade_of(measures.fidelity, self._settings)
+        return grade_by(self._settings, measures.fidelity, self.compatible(measures))
 
     @classmethod
     def groups(
