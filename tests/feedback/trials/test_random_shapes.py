@@ -3,9 +3,10 @@
 import pytest
 
 import shapewright as sw
+from shapewright import Choice
 from shapewright.building import Workers
 from shapewright.feedback.trials.attempt import turned_to
-from shapewright.feedback.trials.random_shapes import RandomShapes, seen, shows
+from shapewright.feedback.trials.random_shapes import RandomShapes, _condition, seen, shows
 from shapewright.modelling.solids import box
 from shapewright.shapes.mesh import concatenate
 
@@ -62,6 +63,12 @@ def test_a_part_belongs_to_the_branches_in_which_it_stands(crew):
 def test_a_part_that_floats_in_a_branch_does_not_belong_there(crew):
     plain, knobs = changed(crew, 'shape | box(0.2, at=(0.3, 0.0, 1 if wide else 0)).label("k") if knob else shape')
     assert plain.branch(knobs, []) == "not p.wide"
+
+
+def test_options_that_are_numbers_stay_numbers():
+    sizes = Choice("size", (4, 8, 16), 4)
+    assert _condition(sizes, [4]) == "p.size == 4" and _condition(sizes, [4, 8]) == "p.size in (4, 8)"
+    assert _condition(Choice("form", ('a "b"', "c"), "c"), ['a "b"']) == 'p.form == "a \\"b\\""'
 
 
 def test_a_part_that_stands_everywhere_has_no_condition(crew):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from shapewright.building import Workers
@@ -48,7 +49,7 @@ class Change:
     helped: tuple[int, ...]  # rows of the references that come much nearer, replicated ones with them
     value: float  # how many references it carries all the way, where two halves count as one
 
-    @property
+    @cached_property
     def source(self) -> str:
         """The changed text."""
         return self.edit.written(self.proposal.source)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from shapewright.building import Workers
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.feedback.trials.attempt import same
+from shapewright.feedback.writing.piece_code import quoted
 from shapewright.parameters import Binary, Choice, Parameters, ParameterSpace, Value
 from shapewright.shapes import Mesh
 
@@ -52,16 +54,21 @@ class RandomShapes:
         drawn = tuple(space.canonical({**values, **on}) for values in own)
         return RandomShapes(space, drawn, _built(crew, drawn))
 
-    @property
+    @cached_property
     def unsound(self) -> int:
         return sum(not (shape and shape.soundness().sound) for shape in self.shapes)
+
+    @cached_property
+    def pieces(self) -> list[int]:
+        """Into how many pieces each shape falls."""
+        return [separate(shape) if shape else 0 for shape in self.shapes]
 
     def branch(self, changed: RandomShapes, helped: Sequence[Parameters]) -> str | None:
         """The condition on parameters ``p`` under which what a change adds stands: None where it stands everywhere.
 
         It stands where it is seen and where no more floats than before. helped: parameters that make use of it.
         """
-        stands = [_stands(old, new) for old, new in zip(self.shapes, changed.shapes, strict=True)]
+        stands = [self._stands(changed, row) for row in range(len(self.shapes))]
         best, most = None, 0
         for parameter in self.space:
             if not isinstance(parameter, Choice | Binary):
@@ -73,6 +80,12 @@ class RandomShapes:
             if saved > most and not {own[parameter.name] for own in helped} & set(out):
                 best, most = _condition(parameter, [value for value in values if value not in out]), saved
         return best
+
+    def _stands(self, changed: RandomShapes, row: int) -> bool:
+        old, new = self.shapes[row], changed.shapes[row]
+        if new is None:
+            return old is None
+        return old is None or (changed.pieces[row] <= self.pieces[row] and shows(old, new))
 
     def _rows(self, name: str, value: Value) -> list[int]:
         return [
@@ -97,12 +110,6 @@ def shows(old: Mesh, new: Mesh) -> bool:
     return seen(new, added) >= _SEEN if added else not same(old, new)
 
 
-def _stands(old: Mesh | None, new: Mesh | None) -> bool:
-    if new is None:
-        return old is None
-    return old is None or (separate(new) <= separate(old) and shows(old, new))
-
-
 def _built(crew: Workers, drawn: Sequence[Parameters]) -> tuple[Mesh | None, ...]:
     return tuple(build.shape if isinstance(build.shape, Mesh) else None for build in crew.build(drawn))
 
@@ -111,8 +118,5 @@ def _condition(parameter: Choice | Binary, kept: Sequence[Value]) -> str:
     name = f"p.{parameter.name}"
     if isinstance(parameter, Binary):
         return name if kept[0] else f"not {name}"
-    return f'{name} == "{kept[0]}"' if len(kept) == 1 else f"{name} in ({', '.join(map(_quoted, kept))})"
-
-
-def _quoted(value: Value) -> str:
-    return f'"{value}"'
+    options = [quoted(value) if isinstance(value, str) else repr(value) for value in kept]
+    return f"{name} == {options[0]}" if len(options) == 1 else f"{name} in ({', '.join(options)})"
