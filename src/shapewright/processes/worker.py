@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import secrets
 import subprocess
@@ -19,6 +20,8 @@ AT_WORK = "at work"
 """Message of a worker to its parent, which then waits for the answer from the beginning."""
 START_SECONDS = 60.0
 """Seconds that a worker may take to start. A usual start takes a quarter of one."""
+_TO_END = 0.5
+"""Seconds that a worker may take to end a program that it runs."""
 SINGLE_THREADED = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 
@@ -84,9 +87,12 @@ class Worker:
         raise RuntimeError(f"a worker process did not start (exit status {self.process.poll()})")
 
     def stop(self) -> None:
-        """End the process at once."""
+        """End the process at once; one that runs another program ends that first."""
         if hasattr(self, "connection"):
             self.connection.close()
+        self.process.terminate()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self.process.wait(_TO_END)
         self.process.kill()
         self.process.wait()
 
