@@ -56,6 +56,7 @@ class Building:
 
     shape_seconds: Annotated[float, Within(above=0), "Seconds that building one shape may take."] = 10.0
     shape_memory_mb: Annotated[int, Within(least=1), "Megabytes that building one shape may take."] = 2048
+    verbose: Annotated[bool, "Show all that the procedure prints; else the last lines, with a failure."] = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -166,7 +166,7 @@ def test_a_script_needs_no_main_guard(tmp_path):
                 print("from the author")
                 return np.eye(3) * size * FACTOR, [[0, 1, 2]]
 
-            with Workers(part, 2) as crew:
+            with Workers(part, 2, shown=True) as crew:
                 builds = crew.build(part.space.sample(20), give_up=True)
             print(sum(b.shape.vertices.max() > 1.4 for b in builds))
             """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from shapewright.parameters import Parameters
@@ -22,14 +22,20 @@ class Failure:
     kind: what happened.
     message: what was wrong.
     place: the author's line, where it is known.
+    printed: the last lines that the author's code printed before.
     """
 
     kind: FailureKind
     message: str
     place: Place | None = None
+    printed: str = field(default="", compare=False)
 
     def __str__(self) -> str:
-        return f"{self.kind}: {self.place.says(self.message) if self.place else self.message}"
+        return f"{self.kind}: {self.place.says(self.message) if self.place else self.message}{self._printed}"
+
+    @property
+    def _printed(self) -> str:
+        return f"; it had printed: {' | '.join(self.printed.splitlines())}" if self.printed else ""
 
     @property
     def where(self) -> object:
@@ -38,12 +44,12 @@ class Failure:
 
     def error(self) -> ProcedureError:
         """The same, of a procedure that could not be loaded."""
-        return ProcedureError(self.message, self.place, "time" if self.kind == "time" else "broken")
+        return ProcedureError(self.message + self._printed, self.place, "time" if self.kind == "time" else "broken")
 
     @classmethod
-    def of(cls, loss: Loss) -> Failure:
+    def of(cls, loss: Loss, printed: str = "") -> Failure:
         """The same, of a shape that was lost with its process."""
-        return cls(loss.kind, loss.message)
+        return cls(loss.kind, loss.message, None, printed)
 
     @classmethod
     def parse(cls, text: str) -> Failure:

@@ -34,19 +34,24 @@ class Workers:
     """Worker processes that build shapes of one procedure at a time; a context manager.
 
     The results are in the order of the request and do not depend on the number of workers.
+
+    shown: what the author's code prints goes to standard error; by default its last lines are kept for failures.
     """
 
-    def __init__(self, procedure: Procedure, count: int | None = None, limits: Limits | None = None) -> None:
+    def __init__(
+        self, procedure: Procedure, count: int | None = None, limits: Limits | None = None, shown: bool = False
+    ) -> None:
         self.procedure = procedure
         self.count = count or cores()
         self.limits = limits or Limits()
         self._payload = _payload(procedure)
-        self._pool = Pool(lambda: WorkerProcess(self._payload, self.limits), self.count)
+        self._pool = Pool(lambda: WorkerProcess(self._payload, self.limits, shown), self.count)
 
     @classmethod
     def of(cls, procedure: Procedure, settings: Settings) -> Workers:
         """As many as the settings say, with their limits of what building one shape may cost."""
-        return cls(procedure, settings.workers, Limits(settings.shape_seconds, settings.shape_memory_mb))
+        limits = Limits(settings.shape_seconds, settings.shape_memory_mb)
+        return cls(procedure, settings.workers, limits, settings.verbose)
 
     def __enter__(self) -> Workers:
         return self

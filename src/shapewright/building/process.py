@@ -6,6 +6,7 @@ import threading
 from typing import Any
 
 from shapewright.building.outcomes import Build, Failure
+from shapewright.building.prints import kept_file, left_in
 from shapewright.parameters import Parameters
 from shapewright.processes.limits import Limits, Loss, too_long
 from shapewright.processes.worker import START_SECONDS, Worker
@@ -17,12 +18,14 @@ class WorkerProcess:
     """One worker process and the connection to it.
 
     payload: the procedure, pickled. Raises ProcedureError when it cannot be loaded.
+    shown: what the author's code prints goes to standard error; by default it is kept, for failures.
     """
 
-    def __init__(self, payload: bytes, limits: Limits) -> None:
+    def __init__(self, payload: bytes, limits: Limits, shown: bool = False) -> None:
         self.limits = limits
-        self._worker = Worker(_PROGRAM)
-        self._load((payload, limits), START_SECONDS, no_answer(START_SECONDS))
+        self._printed = None if shown else kept_file()
+        self._worker = Worker(_PROGRAM, self._printed)
+        self._load((payload, limits, not shown), START_SECONDS, no_answer(START_SECONDS))
 
     def build(self, parameters: list[Parameters], stop: threading.Event) -> list[Build] | Failure:
         """The builds of the first few vectors (at least one), or the failure that ended the worker.
@@ -31,7 +34,7 @@ class WorkerProcess:
         stop: ends the wait; the worker is then lost.
         """
         answer: list[Build] | Loss = self._worker.ask(parameters, self._patience, stop) or too_long(self.limits)
-        return Failure.of(answer) if isinstance(answer, Loss) else answer
+        return self._lost(answer) if isinstance(answer, Loss) else answer
 
     def load(self, payload: bytes) -> None:
         """Build shapes of another procedure from now on. Raises ProcedureError; the worker is then lost."""
@@ -44,14 +47,19 @@ class WorkerProcess:
     def _load(self, request: Any, patience: float, late: Failure) -> None:
         answer = self._worker.ask(request, patience) or late
         if isinstance(answer, Loss):
-            answer = Failure.of(answer)
+            answer = self._lost(answer)
         if isinstance(answer, Failure):
             self.stop()
             raise answer.error()
 
+    def _lost(self, loss: Loss) -> Failure:
+        return Failure.of(loss, left_in(self._printed) if self._printed else "")
+
     def stop(self) -> None:
         """End the process at once."""
         self._worker.stop()
+        if self._printed:
+            self._printed.close()
 
 
 def no_answer(seconds: float) -> Failure:

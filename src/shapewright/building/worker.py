@@ -8,10 +8,12 @@ import pickle
 import sys
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from multiprocessing.connection import Connection
 
 from shapewright.building.clock import TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure
+from shapewright.building.prints import Prints
 from shapewright.parameters import Parameters
 from shapewright.procedures import Infeasible, Procedure, ProcedureError, describe, load_procedure, place_of
 from shapewright.processes import Limits
@@ -30,8 +32,11 @@ def serve(connection: Connection) -> None:
     limits: Limits
     try:
         with _one_core():
-            payload, limits = connection.recv()
+            payload, limits, kept = connection.recv()
+            printed = Prints.of_streams() if kept else None
             procedure = _received(payload)
+            if printed:
+                printed.taken()
         limit_memory(limits.memory_mb)
         connection.send(_READY)
         while True:
@@ -40,7 +45,7 @@ def serve(connection: Connection) -> None:
                 procedure = _received(requests)
                 connection.send(_READY)
             else:
-                connection.send(_build_some(procedure, requests, limits, lambda: connection.send(AT_WORK)))
+                connection.send(_build_some(procedure, requests, limits, printed, lambda: connection.send(AT_WORK)))
     except ProcedureError as error:  # of a file that does not load: the parent ends this process
         connection.send(Failure("raised", error.message, error.place))
 
@@ -78,7 +83,11 @@ def _one_core() -> Iterator[None]:
 
 
 def _build_some(
-    procedure: Procedure, requests: list[Parameters], limits: Limits, compiling: Callable[[], object]
+    procedure: Procedure,
+    requests: list[Parameters],
+    limits: Limits,
+    printed: Prints | None,
+    compiling: Callable[[], object],
 ) -> list[Build]:
     """Build in order until a fraction of the time limit has passed, so that a hang is noticed soon."""
     started = time.perf_counter()
@@ -90,9 +99,18 @@ def _build_some(
         except TimeLimit as error:
             late = Failure("time", describe(error), place_of(error, procedure.path))
             builds.append(Build(parameters, None, late, limits.seconds))
+        if printed:
+            builds[-1] = _with_printed(builds[-1], printed.taken())
         if time.perf_counter() - started > _ANSWER_WITHIN * limits.seconds:
             break
     return builds
+
+
+def _with_printed(build: Build, printed: str) -> Build:
+    """A failure tells what was printed before; an infeasible shape is none."""
+    if build.failure is None or build.failure.kind == "infeasible":
+        return build
+    return replace(build, failure=replace(build.failure, printed=printed))
 
 
 def build(procedure: Procedure, parameters: Parameters, limits: Limits) -> Build:

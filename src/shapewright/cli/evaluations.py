@@ -13,7 +13,7 @@ from shapewright.procedures import load_procedure
 from shapewright.settings import Settings
 
 
-@with_settings("samples", "epochs", "cameras", "views", "augment", "refine", "device", "workers")
+@with_settings("samples", "epochs", "cameras", "views", "augment", "refine", "device", "workers", "verbose")
 def evaluate(
     procedure: ProcedureArgument,
     chosen: Mapping[str, Any],

@@ -50,6 +50,7 @@ _SIDES = 4  # that look like the front of a shape that has none
         "shape_seconds",
         "shape_memory_mb",
         "workers",
+        "verbose",
     ),
 )
 def fit(

@@ -12,7 +12,7 @@ import typer
 
 from shapewright.settings import Preset, Settings, described
 
-FLAGS = {"shape_seconds": "--time-limit", "shape_memory_mb": "--memory-limit"}
+FLAGS = {"shape_seconds": "--time-limit", "shape_memory_mb": "--memory-limit", "verbose": "--verbose"}
 """Options that have another name than their setting."""
 
 

@@ -12,7 +12,7 @@ import threading
 from concurrent.futures import Future
 from multiprocessing.connection import Connection, Listener
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from shapewright.processes.limits import crash
 
@@ -29,9 +29,10 @@ class Worker:
     """A program of this package in a process of its own, and the connection to it.
 
     program: the module that it runs, which calls ``program.attend``.
+    printed: where what it prints goes; by default to this process's standard error.
     """
 
-    def __init__(self, program: str) -> None:
+    def __init__(self, program: str, printed: IO[bytes] | None = None) -> None:
         key = secrets.token_bytes(32)
         with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
             address = None if sys.platform == "win32" else str(Path(folder) / "worker")
@@ -40,7 +41,8 @@ class Worker:
                     # -P: a random.py of the author in the working folder is not Python's.
                     [sys.executable, "-P", "-m", program, str(listener.address)],
                     stdin=subprocess.PIPE,
-                    stdout=sys.stderr.fileno() if _has_descriptor(sys.stderr) else subprocess.DEVNULL,
+                    stdout=printed or (sys.stderr.fileno() if _has_descriptor(sys.stderr) else subprocess.DEVNULL),
+                    stderr=printed,
                     env={**os.environ, **SINGLE_THREADED},
                 )
                 assert self.process.stdin is not None
