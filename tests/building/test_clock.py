@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import signal
+import sys
 import time
 from pathlib import Path
 from types import ModuleType
@@ -14,6 +15,7 @@ import pytest
 from shapewright.building import Limits, Workers
 from shapewright.building.clock import TimeLimit, time_limit
 from shapewright.procedures import load_procedure
+from shapewright.processes.resident import HELLO, Resident
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs POSIX timers")
 
@@ -94,3 +96,16 @@ def test_shapes_that_compile_are_built_and_endless_ones_are_not(compiler: Module
         good, bad = crew.build([{"size": 1.0, "endless": False}, {"size": 1.0, "endless": True}])
     assert good.shape is not None
     assert bad.failure and bad.failure.kind == "time" and "procedure.py:16" in str(bad.failure)
+
+
+def test_the_start_of_another_program_does_not_count_and_its_work_does():
+    program = (
+        "import struct, sys, time\ntime.sleep(0.8)\nsys.stdout.buffer.write("
+        f"{HELLO!r} + struct.pack('>I', 14) + b'{{\"arrays\": []}}')\nsys.stdout.flush()\ntime.sleep(60)"
+    )
+    ticks = []
+    with pytest.raises(TimeLimit), time_limit(0.3, lambda: ticks.append(1)):
+        resident = Resident([sys.executable, "-c", program], {})
+        assert ticks
+        resident.ask({})
+    assert not resident.alive

@@ -1,4 +1,4 @@
-"""The time that building one shape may take; what numba compiles on the way does not count."""
+"""The time that building one shape may take; compiling by numba and the start of another program do not count."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ import time
 from collections.abc import Callable, Iterator
 from types import FrameType
 
+from shapewright.processes.resident import STARTING
+
 MOST = 120.0
-"""Seconds from the start in which compiling does not count, at most."""
+"""Seconds from the start in which compiling and starting do not count, at most."""
 _TICKS = 10
 """Ticks of the clock to one time limit."""
 _NUMBA = f"{os.sep}numba{os.sep}"
@@ -25,7 +27,8 @@ def time_limit(seconds: float, compiling: Callable[[], object] = lambda: None) -
     """Raise TimeLimit in the block after ``seconds``; a system without timers has no limit.
 
     The first shape of a procedure may need kernels, which are compiled once on a machine and then kept. A clock ticks
-    _TICKS times within the limit. A tick at which numba compiles does not count; it calls ``compiling`` instead.
+    _TICKS times within the limit. A tick at which numba compiles, or a program like Blender starts, does not count; it
+    calls ``compiling`` instead.
     """
     if not hasattr(signal, "setitimer"):
         yield
@@ -34,7 +37,7 @@ def time_limit(seconds: float, compiling: Callable[[], object] = lambda: None) -
 
     def tick(number: int, frame: FrameType | None) -> None:
         nonlocal left
-        if time.monotonic() - begun < MOST and _compiles(frame):
+        if time.monotonic() - begun < MOST and _prepares(frame):
             compiling()
             return
         left -= 1
@@ -51,9 +54,9 @@ def time_limit(seconds: float, compiling: Callable[[], object] = lambda: None) -
         signal.signal(signal.SIGALRM, before)
 
 
-def _compiles(frame: FrameType | None) -> bool:
+def _prepares(frame: FrameType | None) -> bool:
     while frame:
-        if _NUMBA in frame.f_code.co_filename:
+        if _NUMBA in frame.f_code.co_filename or frame.f_code is STARTING:
             return True
         frame = frame.f_back
     return False

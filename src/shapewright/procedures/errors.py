@@ -12,7 +12,8 @@ class ProcedureError(Exception):
 
     message: what is wrong and what to do, without the place unless ``summary``.
     place: the author's line, where it is known.
-    kind: ``"time"`` when the author's code took too long, else ``"broken"``.
+    kind: ``"time"`` when the author's code took too long, ``"crash"`` when a program that builds ended instead, else
+        ``"broken"``.
     summary: the message is about several shapes and names the place itself.
     """
 
@@ -20,7 +21,7 @@ class ProcedureError(Exception):
         self,
         message: str,
         place: Place | None = None,
-        kind: Literal["broken", "time"] = "broken",
+        kind: Literal["broken", "time", "crash"] = "broken",
         summary: bool = False,
     ) -> None:
         super().__init__(message, place, kind, summary)

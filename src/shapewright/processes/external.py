@@ -66,17 +66,17 @@ def run_program(
             stdout=told,
             stderr=failed,
             start_new_session=True,
-            preexec_fn=partial(_allow, memory_mb) if os.name == "posix" else None,
+            preexec_fn=partial(allow, memory_mb) if os.name == "posix" else None,
         )
         try:
             with _ended_by_terminate():
                 late = not _wait(process, seconds)
         finally:
             _end(process)
-        return Ended(None if late else process.returncode, _lines(failed) or _lines(told))
+        return Ended(None if late else process.returncode, last_lines(failed) or last_lines(told))
 
 
-def _allow(memory_mb: int | None) -> None:
+def allow(memory_mb: int | None) -> None:
     """In the new process: its own limit of memory, in place of the one that this process has."""
     import resource
 
@@ -128,7 +128,8 @@ def _end(process: subprocess.Popen[bytes]) -> None:
     process.wait()
 
 
-def _lines(stream: IO[bytes]) -> tuple[str, ...]:
+def last_lines(stream: IO[bytes]) -> tuple[str, ...]:
+    """The last lines of a file that a program writes, without empty ones."""
     end = stream.seek(0, os.SEEK_END)
     stream.seek(max(0, end - _KEPT))
     lines = stream.read().decode("utf-8", "replace").splitlines()

@@ -64,8 +64,22 @@ def limit_memory(megabytes: int) -> None:
         import resource
     except ImportError:
         return
-    mapped = 0
-    with contextlib.suppress(OSError), Path("/proc/self/statm").open() as statm:
-        mapped = int(statm.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
     with contextlib.suppress(ValueError, OSError):
-        resource.setrlimit(resource.RLIMIT_AS, (mapped + megabytes * 2**20, resource.RLIM_INFINITY))
+        resource.setrlimit(resource.RLIMIT_AS, (_mapped() + megabytes * 2**20, resource.RLIM_INFINITY))
+
+
+def memory_left() -> int | None:
+    """Megabytes that this process may still map; None without a limit."""
+    try:
+        import resource
+    except ImportError:
+        return None
+    most = resource.getrlimit(resource.RLIMIT_AS)[0]
+    return None if most == resource.RLIM_INFINITY else max(0, most - _mapped()) // 2**20
+
+
+def _mapped() -> int:
+    """Bytes of address space that this process has; 0 where that is not known."""
+    with contextlib.suppress(OSError), Path("/proc/self/statm").open() as statm:
+        return int(statm.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+    return 0
