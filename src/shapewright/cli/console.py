@@ -219,6 +219,8 @@ def print_explanation(record: Mapping[str, Any], folder: Path) -> None:
         title = f"\n[bold]{number}. {escape(suggestion['title'])}[/]  +{suggestion['gain']}"
         out.print(title, highlight=False, soft_wrap=True)
         out.print(escape(suggestion["text"]), highlight=False, soft_wrap=True)
+    if record.get("unsuggested"):
+        out.print(escape(record["unsuggested"]), highlight=False, soft_wrap=True)
     spent = sum(record["seconds"].values())
     out.print(f"\n[dim]{spent:.0f} s[/]   report: {escape(str(folder / 'report.html'))}", soft_wrap=True)
 

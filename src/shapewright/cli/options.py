@@ -28,7 +28,8 @@ def option(name: str, default: Any = None) -> Any:
 
 
 ProcedureArgument = Annotated[
-    Path, typer.Argument(help="The Python file with the @procedure; file.py:name for one of several.")
+    Path,
+    typer.Argument(help="The Python file with the @procedure; file.py:name for one of several. Or an OpenSCAD file."),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object as the last line of standard output.")]
 PresetOption = Annotated[

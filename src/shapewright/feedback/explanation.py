@@ -12,7 +12,7 @@ from shapewright.feedback.causes.causes import causes
 from shapewright.feedback.causes.drawn_cases import drawn_causes, in_place
 from shapewright.feedback.causes.failures import failures
 from shapewright.feedback.causes.shared import SharedCause, shared_causes
-from shapewright.feedback.suggestions import Suggestion, suggestions
+from shapewright.feedback.suggestions import Suggestion, no_suggestions, suggestions
 from shapewright.feedback.surfaces.areas import areas
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.feedback.surfaces.visible_surface import VisibleSurface
@@ -54,6 +54,7 @@ class Explanation:
     suggestions: tuple[Suggestion, ...] = ()  # what to write next, the largest gain first
     tried: tuple[Tried, ...] = ()  # every change that was tried, the one that got furthest first
     source: str = ""  # text of the procedure that is explained
+    unsuggested: str | None = None  # why no changes of the procedure are suggested, where they are not sought
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
 
 
@@ -110,9 +111,11 @@ def explain(
         stages.begin("causes", 4)
         cases = causes(cases, iteration.predictor, crew, judge, stages)
         unsolved = [case for case in cases if case.nearest.apart > 1.0]
+        why_not = no_suggestions(procedure) if suggest else None
         changes, tried = suggestions(procedure, unsolved, crew, judge, stages, rules=rules) if suggest else ((), ())
         stages.end()
-    return replace(_explanation(procedure, cases, changes, _failed(iteration, built), stages), tried=tried)
+    explanation = _explanation(procedure, cases, changes, _failed(iteration, built), stages)
+    return replace(explanation, tried=tried, unsuggested=why_not)
 
 
 def check_explainable(references: Collection) -> None:

@@ -33,6 +33,7 @@ def record_of(explanation: Explanation) -> dict[str, Any]:
         "references": {name: _case(case) for name, case in explanation.references.items()},
         "summary": [_shared(cause) for cause in explanation.summary],
         "suggestions": [_suggestion(suggestion, explanation.source) for suggestion in explanation.suggestions],
+        "unsuggested": explanation.unsuggested,
         "tried": [_tried(tried) for tried in explanation.tried],
         "seconds": {stage: round(seconds, 2) for stage, seconds in explanation.seconds.items()},
     }

@@ -27,7 +27,7 @@ from shapewright.feedback.writing.edit import parameter_line
 from shapewright.feedback.writing.source import can_edit, snippet
 from shapewright.judging.judge import Judge
 from shapewright.parameters import ParameterSpace
-from shapewright.procedures import Procedure
+from shapewright.procedures import Procedure, is_foreign
 from shapewright.progress import Stages
 from shapewright.rules.library import library
 from shapewright.rules.rule import Rule
@@ -85,7 +85,7 @@ def suggestions(
     procedure. limit: of the number of suggestions. rules: the library; by default all of it, and those of the files
     beside the procedure. The same seed gives the same suggestions.
     """
-    if not cases or not can_edit(procedure.source, procedure.name):
+    if not cases or no_suggestions(procedure):
         return (), ()
     stages = stages or Stages(None)
     stages.begin("hypotheses", 1)
@@ -101,6 +101,16 @@ def suggestions(
     changes, tried = selected(procedure, worthy, misfits, judge, known, evaluations, limit)
     by_row = {case.row: case for case in cases}
     return tuple(_suggestion(change, procedure, by_row, judge) for change in changes), tuple(tried)
+
+
+def no_suggestions(procedure: Procedure) -> str | None:
+    """Why no changes of this procedure can be suggested, in a sentence; None where they can."""
+    if is_foreign(procedure.path) or not can_edit(procedure.source, procedure.name):
+        return (
+            "No changes are suggested, since they edit a function at the top level of a Python file, "
+            f"and {procedure.name} is none."
+        )
+    return None
 
 
 def _misfits(cases: Sequence[Case], judge: Judge, rules: Sequence[Rule]) -> list[Misfit]:

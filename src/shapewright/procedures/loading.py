@@ -1,4 +1,16 @@
-"""Loading a procedure from the author's file, or from a module."""
+"""Loading a procedure from the author's file, or from a module.
+
+A file that is no Python has an entry in ``_READERS``. Its reader makes a ``Procedure`` of an object that is called as
+the author's function would be, with these attributes:
+
+- ``__name__``: of the procedure;
+- ``__signature__``: an ``inspect.Signature`` with the annotations that Python authors write;
+- ``place``: a ``Place`` in the file, which errors about the whole name.
+
+It is called by keywords with values of the space; arguments that are held are left out. What it raises for one shape is
+Infeasible, or ProcedureError with the line of the file. The reader sets ``helpers``, the files that the file uses. The
+object is picklable, and every process reads the file anew. The suffixes are in ``texts``.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +18,10 @@ import functools
 import importlib
 import inspect
 import linecache
+import re
 import sys
 import sysconfig
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeAlias
@@ -15,20 +29,35 @@ from typing import Any, TypeAlias
 from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.places import Place, describe, place_of
 from shapewright.procedures.procedure import Procedure
+from shapewright.procedures.texts import FOREIGN
 
+
+def _openscad(path: Path, name: str | None) -> Procedure:
+    from shapewright.procedures.openscad.reading import read
+
+    return read(path, name)
+
+
+_READERS: Mapping[str, Callable[[Path, str | None], Procedure]] = {".scad": _openscad}
+"""What makes a procedure of a file that is no Python, by its suffix. It is given the file, and the name that is asked
+for: for a file with one procedure it becomes the procedure's name. It imports what it needs when it is called."""
+_NAMED = re.compile(rf"(.*({'|'.join(map(re.escape, ['.py', *sorted(FOREIGN)]))})):(.+)", re.IGNORECASE | re.DOTALL)
 _HELPERS = "__shapewright_helpers__"
 """The name under which an executed file has the files that it imported from its own folder."""
 
 
 def load_procedure(source: str | Path) -> Procedure:
-    """The one procedure of a Python file, or of a module that can be imported.
+    """The one procedure of a Python file, of a module that can be imported, or of a file of another program.
 
-    source: a file in any folder, with its own imports; a file and the name of one of several (``file.py:name``); a
-        module and a name (``package.module:name``). A name may also be that of a function without ``@procedure``.
+    source: a Python file in any folder, with its own imports; a file and the name of one of several (``file.py:name``);
+        a module and a name (``package.module:name``); an OpenSCAD file (``model.scad``). A name may also be that of a
+        function without ``@procedure``.
 
     Of a file those that are defined in it count; if there are none, those that it imports or gets made elsewhere.
     Raises ProcedureError, pointing at the author's line, when the file is missing, fails, or has not one procedure.
     """
+    if foreign := _foreign(source):
+        return foreign
     path, name, module = _from_module(str(source)) or _from_file(source)
     place = path or module.__name__
     named = {key: value for key, value in vars(module).items() if isinstance(value, Procedure)}
@@ -50,6 +79,17 @@ def load_procedure(source: str | Path) -> Procedure:
     chosen.path = path
     chosen.helpers = tuple(vars(module).get(_HELPERS, ()))
     return chosen
+
+
+def _foreign(source: str | Path) -> Procedure | None:
+    """The procedure of a file that is no Python; None where it is Python."""
+    suffix = (match[2] if (match := _NAMED.fullmatch(str(source))) else Path(source).suffix).lower()
+    if suffix not in _READERS:
+        return None
+    path, name = _split(source)
+    made = _READERS[suffix](path, name)
+    made.path = path
+    return made
 
 
 def _made(function: Any) -> Procedure | None:
@@ -90,14 +130,13 @@ def _from_module(source: str) -> _Found | None:
 
 
 def _split(path: str | Path) -> tuple[Path, str | None]:
-    file, _, name = str(path).rpartition(":")
-    named = file.endswith(".py")
-    resolved = Path(file if named else path).expanduser().resolve()
+    named = None if Path(path).is_file() else _NAMED.fullmatch(str(path))
+    resolved = Path(named[1] if named else path).expanduser().resolve()
     if resolved.is_dir():
-        raise ProcedureError(f"{resolved}: this is a folder; name the Python file of the procedure")
+        raise ProcedureError(f"{resolved}: this is a folder; name the file of the procedure")
     if not resolved.is_file():
         raise ProcedureError(f"{resolved}: no such file")
-    return resolved, name if named else None
+    return resolved, named[3] if named else None
 
 
 def executed(path: Path) -> ModuleType:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import hashlib
 import inspect
 import sys
 from collections.abc import Callable, Mapping
@@ -15,6 +14,7 @@ from shapewright.procedures.errors import Infeasible, ProcedureError
 from shapewright.procedures.facts import Axis, Facts, Size, Unit
 from shapewright.procedures.places import Place
 from shapewright.procedures.signature import name_of, place_in, signature_of
+from shapewright.procedures.texts import source_digest, text_of
 from shapewright.shapes import Shape
 from shapewright.shapes.conversion import as_shape
 
@@ -27,7 +27,7 @@ class Procedure:
         name: the function's.
         signature: how the function is called with values of the space.
         path: the author's file, if it was loaded from one.
-        helpers: files that it imported from its own folder.
+        helpers: files that it imported or used from its own folder.
         facts: what is true of all its shapes.
     """
 
@@ -84,10 +84,13 @@ class Procedure:
 
     @property
     def source(self) -> str:
-        """The text of the author's file, or of the function alone when there is no file; empty if neither is known."""
+        """The text of the author's file, or of the function alone when there is no file; empty if neither is known.
+
+        A binary file has a line that says what is in it, see ``text_of``.
+        """
         try:
-            return self.path.read_text("utf-8") if self.path else inspect.getsource(self.function)
-        except (OSError, TypeError):
+            return text_of(self.path) if self.path else inspect.getsource(self.function)
+        except (OSError, TypeError, UnicodeDecodeError):
             return ""
 
     def __repr__(self) -> str:
@@ -131,8 +134,3 @@ def procedure(
         return Procedure(function, names, facts)
 
     return made if function is None else made(function)
-
-
-def source_digest(source: str) -> str:
-    """A key for the text of a procedure, the same in every run and in the studio: 16 hexadecimal digits of SHA-256."""
-    return hashlib.sha256(source.encode()).hexdigest()[:16]

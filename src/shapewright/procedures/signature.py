@@ -128,7 +128,9 @@ def _argument(item: inspect.Parameter, hint: Any, bound: bool) -> Iterator[Argum
 
 def _hints(function: Callable[..., Any], wanted: Sequence[str], names: Mapping[str, Any]) -> dict[str, Any]:
     """The annotations of these arguments. What the function returns is left out: it may be known to a checker alone."""
-    inner = inspect.unwrap(function.func if isinstance(function, functools.partial) else function)
+    inner: Any = inspect.unwrap(function.func if isinstance(function, functools.partial) else function)
+    if isinstance(spelled := getattr(inner, "__signature__", None), inspect.Signature):  # of a file that is no Python
+        return {item.name: item.annotation for item in spelled.parameters.values() if item.annotation is not item.empty}
     if isinstance(inner, type) and not dataclasses.is_dataclass(inner):
         inner = vars(inner).get("__init__", inner)
     elif not isinstance(inner, type) and not hasattr(inner, "__annotations__"):
@@ -161,7 +163,9 @@ def _annotations(inner: Any) -> dict[str, Any]:
 
 
 def place_in(function: Callable[..., Any]) -> Place:
-    """Where a function begins; the class of an object that is called."""
+    """Where a function begins; the class of an object that is called, or the place that the object says itself."""
+    if isinstance(said := getattr(function, "place", None), Place):
+        return said
     inner: Any = inspect.unwrap(function.func if isinstance(function, functools.partial) else function)
     name = name_of(function)
     inner = getattr(inner, "__func__", inner)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from shapewright.procedures import Procedure, ProcedureError, load_procedure, source_digest
+from shapewright.procedures import Procedure, ProcedureError, load_procedure, source_digest, text_of
 from shapewright.references import Collection, CollectionError
 from shapewright.runs.folder import RunError
+from shapewright.runs.helpers import copy_in
 from shapewright.runs.iteration import Iteration
 
 _SHOWN = 3
@@ -18,10 +19,10 @@ def procedure_of(run: Path, iteration: Iteration) -> Procedure:
     Raises RunError when neither can be loaded.
     """
     name, path = iteration.procedure["name"], iteration.procedure["path"]
-    if path and Path(path).is_file() and source_digest(Path(path).read_text("utf-8")) == iteration.procedure["digest"]:
+    if path and Path(path).is_file() and source_digest(text_of(Path(path))) == iteration.procedure["digest"]:
         return load_procedure(f"{path}:{name}")
     try:
-        return load_procedure(f"{run / 'procedure.py'}:{name}")
+        return load_procedure(f"{copy_in(run, path or '')}:{name}")
     except ProcedureError as error:
         raise RunError(
             f"{run}: the procedure has changed since this run, and the run's copy of its text cannot be loaded: "

@@ -20,7 +20,7 @@ from shapewright.judging.verdict import Grade
 from shapewright.prediction.predictor import Predictor
 from shapewright.rendering.thumbnails import seen_from, thumbnail, thumbnails
 from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
-from shapewright.runs.helpers import read_helpers, write_helpers
+from shapewright.runs.helpers import read_helpers, text_in, write_source
 from shapewright.runs.marks import worth_marking
 from shapewright.runs.result import MEASURES, Result, from_record, read_replica, replica_path, to_record
 from shapewright.settings import Settings
@@ -47,7 +47,7 @@ class Iteration:
         seconds: wall time by stage.
         procedure: its name, path, digest and parameters, as the record has them.
         source: text of the procedure.
-        helpers: texts of the files that it imports from its own folder, by their path in it.
+        helpers: contents of the files that it uses from its own folder, by their path in it.
         collection: where the references come from, as the record has it.
         metrics: what training and validation measured, as the record has it.
         versions: of Python and of the libraries that results depend on.
@@ -69,7 +69,7 @@ class Iteration:
     created: str
     pictures: Pictures = field(default_factory=dict, repr=False)
     predictor: Predictor | None = field(default=None, repr=False)
-    helpers: Mapping[str, str] = field(default_factory=dict, repr=False)
+    helpers: Mapping[str, bytes] = field(default_factory=dict, repr=False)
 
     @cached_property
     def _by_name(self) -> dict[str, Result]:
@@ -187,7 +187,7 @@ class Iteration:
             metric=Metric.of_record(record),
             groups=tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"]),
             settings=Settings.from_record({**_AS_BEFORE, **record["settings"]}),
-            source=(folder / "procedure.py").read_text(encoding="utf-8"),
+            source=text_in(folder).read_text(encoding="utf-8"),
             pictures={entry["name"]: _read_pictures(folder, entry["slug"]) for entry in record["references"]},
             helpers=read_helpers(folder),
             predictor=Predictor.load(folder / "predictor.pt") if (folder / "predictor.pt").exists() else None,
@@ -196,8 +196,7 @@ class Iteration:
 
     def _write(self, folder: Path) -> None:
         (folder / RECORD).write_text(json.dumps(self.record, indent=1, allow_nan=False), encoding="utf-8")
-        (folder / "procedure.py").write_text(self.source, encoding="utf-8")
-        write_helpers(folder, self.helpers)
+        write_source(folder, self.procedure.get("path"), self.source, self.helpers)
         parameters = {result.name: result.parameters for result in self.results}
         (folder / "parameters.json").write_text(json.dumps(parameters, indent=1), encoding="utf-8")
         self._write_csv(folder / "parameters.csv")

@@ -43,7 +43,8 @@ export function FeedbackView() {
               </header>
               {found.suggestions.length === 0 && (
                 <p class="soft">
-                  Nothing is suggested: no change that was tried makes a reference replicated.{spent(found)}
+                  {found.unsuggested ??
+                    `Nothing is suggested: no change that was tried makes a reference replicated.${spent(found)}`}
                 </p>
               )}
               <div class="cards">

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from watchfiles import Change, awatch
 
+from shapewright.procedures import is_foreign
 from shapewright.references import EXTENSIONS
 from shapewright.references.sources import MANIFEST
 from shapewright.studio.project.workspace import SCRATCH, Project
@@ -17,11 +18,15 @@ _STEP, _LONGEST = 30, 300
 
 
 async def watch(project: Project, source: Callable[[], object], references: Callable[[], object]) -> None:
-    """Call ``source`` after a Python file beside the procedure changed, ``references`` after a reference did."""
+    """Call ``source`` after a file that may be the procedure's changed, ``references`` after a reference did.
+
+    Those are Python files beside it; of a procedure that is no Python any file of its folder, since it may use that.
+    """
+    foreign = is_foreign(project.procedure)
     shapes = Path(project.origin.source)
     home = shapes if shapes.is_dir() else shapes.parent
     async with asyncio.TaskGroup() as group:
-        group.create_task(_watch(project.procedure.parent, False, _is_source, source))
+        group.create_task(_watch(project.procedure.parent, foreign, _is_used if foreign else _is_source, source))
         if home.is_dir():
             group.create_task(_watch(home, True, _is_shape, references))
 
@@ -41,5 +46,8 @@ def _is_source(path: Path) -> bool:
 
 
 def _is_shape(path: Path) -> bool:
-    hidden = any(part in (SCRATCH, "runs", ".git") for part in path.parts) or path.name.startswith(".")
-    return path.suffix.lower() in _SHAPES and not hidden
+    return path.suffix.lower() in _SHAPES and _is_used(path)
+
+
+def _is_used(path: Path) -> bool:
+    return not path.name.startswith(".") and not {SCRATCH, "runs", ".git"} & set(path.parts)

@@ -5,16 +5,21 @@ from __future__ import annotations
 import hashlib
 import re
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
-from shapewright.procedures import source_digest
+from shapewright.procedures import BINARY, is_foreign, source_digest, text_of
 from shapewright.runs.folder import runs
 from shapewright.storage import remove_leftovers, write_file
 from shapewright.studio.project.listing import Origin
 
 SCRATCH = ".shapewright"
 """Folder of a project for what may be thrown away: replaced versions of the procedure, exports."""
+_NAMES = (re.compile(rb"[<\"']([^<>\"'\n\0]+)[>\"']"), re.compile(rb"[^\s<>\"'(){}\[\],;=\0]+\.\w+"))
+"""What may be the path of a file in a text: what stands in quotes or between < and >, or a word with a suffix."""
+_LOOKED_AT = 1024  # bytes that tell a text from a binary file
 _START = "shapewright new NAME makes one, and shapewright demo one with forty tables"
 
 
@@ -103,7 +108,7 @@ class Project:
         if not self.procedure.resolve().is_relative_to(self.folder):
             raise ProjectError(f"{self.procedure.name} has become a link that leads out of the project")
         try:
-            text = self.procedure.read_text(encoding="utf-8")
+            text = text_of(self.procedure)
         except FileNotFoundError as error:
             raise ProjectError(f"{self.procedure.name} is not there any more") from error
         except (OSError, UnicodeDecodeError) as error:
@@ -119,18 +124,21 @@ class Project:
         before, there = self.read_source()
         if expected is not None and there != expected:
             raise Conflict(before, there)
+        if self.procedure.suffix.lower() in BINARY:
+            raise ProjectError(f"{self.procedure.name} is no text; change it in the program that made it")
         if text != before:
-            _write(self.scratch() / f"procedure-{time.strftime('%Y%m%d-%H%M%S')}-{there}.py", before)
+            suffix = self.procedure.suffix
+            _write(self.scratch() / f"procedure-{time.strftime('%Y%m%d-%H%M%S')}-{there}{suffix}", before)
             ending = "\r\n" if b"\r\n" in self.procedure.read_bytes() else "\n"
             _write(self.procedure, text.replace("\r\n", "\n").replace("\n", ending))
         return source_digest(text)
 
     def write_copy(self, text: str) -> Path:
         """Put a text beside the procedure under a new name, and return its path."""
-        stem = self.procedure.stem
+        stem, suffix = self.procedure.stem, self.procedure.suffix
         home = self.procedure.parent
         taken = {path.name for path in home.iterdir()}
-        name = next(name for i in range(1, len(taken) + 2) if (name := f"{stem}-{i}.py") not in taken)
+        name = next(name for i in range(1, len(taken) + 2) if (name := f"{stem}-{i}{suffix}") not in taken)
         _write(home / name, text)
         return home / name
 
@@ -146,7 +154,13 @@ class Project:
         return folder
 
     def fingerprint(self) -> str:
-        """Changes whenever the procedure does, or a Python file beside it that it names, or that such a file names."""
+        """Changes whenever the procedure does, or a file that it uses.
+
+        Those are the Python files beside it that it names, or that such a file names; of a procedure that is no Python
+        all files of its folder whose path there it names, and so on.
+        """
+        if is_foreign(self.procedure):
+            return _digest(self._named_files())
         texts = {path.stem: _read_bytes(path) for path in self.procedure.parent.glob("*.py")}
         used: set[str] = set()
         news = {self.procedure.stem}
@@ -154,8 +168,27 @@ class Project:
             used |= news
             words = {word for stem in news for word in re.findall(rb"\w+", texts.get(stem, b""))}
             news = {stem for stem in texts if stem.encode() in words} - used
-        named = repr([(stem, texts.get(stem)) for stem in sorted(used)])
-        return hashlib.blake2b(named.encode(), digest_size=8).hexdigest()
+        return _digest({stem: texts.get(stem, b"") for stem in used})
+
+    def _named_files(self) -> dict[str, bytes]:
+        """What a procedure that is no Python uses, itself included, by path."""
+        found: dict[str, bytes] = {}
+        news = {self.procedure}
+        while news:
+            found |= {str(path): _read_bytes(path) for path in news}
+            named = {
+                (path.parent / word.decode("utf-8", "replace")).resolve()
+                for path in news
+                if b"\0" not in found[str(path)][:_LOOKED_AT]
+                for word in chain.from_iterable(pattern.findall(found[str(path)]) for pattern in _NAMES)
+            }
+            inside = {path for path in named if path.is_relative_to(self.folder) and path.is_file()}
+            news = {path for path in inside if str(path) not in found}
+        return found
+
+
+def _digest(contents: Mapping[str, bytes]) -> str:
+    return hashlib.blake2b(repr(sorted(contents.items())).encode(), digest_size=8).hexdigest()
 
 
 def _write(path: Path, text: str) -> None:

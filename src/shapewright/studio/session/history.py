@@ -13,6 +13,7 @@ from shapewright.runs.changes import Move as RunMove
 from shapewright.runs.changes import compare
 from shapewright.runs.difference import difference
 from shapewright.runs.folder import EXPLANATION, RECORD, RunError, read_record
+from shapewright.runs.helpers import text_in
 from shapewright.runs.result import grade_in, judge_in
 from shapewright.studio.session.board import counted
 from shapewright.studio.session.standard import Standard
@@ -55,7 +56,7 @@ def _summary(folder: Path, stamp: int) -> Run:
 
 def source_of(run: Path) -> str:
     """The procedure that a run was made with; empty where the run has none."""
-    path = run / "procedure.py"
+    path = text_in(run)
     inside = path.is_file() and path.resolve().parent == run.resolve()
     return path.read_text(encoding="utf-8") if inside else ""
 

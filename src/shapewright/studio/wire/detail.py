@@ -120,6 +120,7 @@ class Explanation(TypedDict):
     references: dict[Slug, ReferenceExplanation]
     summary: list[SharedCause]
     suggestions: list[Suggestion]
+    unsuggested: NotRequired[str | None]  # why none are sought
     tried: NotRequired[list[Tried]]
     seconds: NotRequired[dict[str, float]]  # by stage
 

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from shapewright.building.outcomes import Failure, FailureKind
 from shapewright.parameters import Parameters
-from shapewright.procedures import Place, ProcedureError
+from shapewright.procedures import Place, ProcedureError, is_foreign
 from shapewright.studio.wire.values import Slug, Values
 
 ProblemKind: TypeAlias = Annotated[
@@ -59,7 +59,9 @@ def _placed(kind: ProblemKind, message: str, place: Place | None, root: Path) ->
 
 
 def syntax_problem(path: Path, root: Path) -> Problem | None:
-    """Of a file that Python cannot parse; None for one that it can. Nothing of it is run."""
+    """Of a file that Python cannot parse; None for one that it can, and for one that is no Python. Nothing is run."""
+    if is_foreign(path):
+        return None
     try:
         compile(path.read_bytes(), str(path), "exec")
     except SyntaxError as error:

@@ -112,6 +112,8 @@ export interface Explanation {
   references: Record<Slug, ReferenceExplanation>;
   summary: SharedCause[];
   suggestions: Suggestion[];
+  /** why none are sought. */
+  unsuggested?: string | null;
   tried?: Tried[];
   /** by stage. */
   seconds?: Record<string, number>;

@@ -1,0 +1,1 @@
+"""OpenSCAD files as procedures: the Customizer's annotations are the parameter space."""

@@ -1,0 +1,100 @@
+"""What the Customizer's annotation of a value says: which values it may have, in the words of a Python signature.
+
+The forms are those of the OpenSCAD manual's page "Customizer": ``// [0:10]``, ``// [0:0.5:10]``, ``// [10]``,
+``// [a, b, c]``, ``// [10:Small, 20:Large]``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Annotated, Any, Literal, TypeAlias
+
+from shapewright.parameters import Range
+
+Plain: TypeAlias = bool | int | float | str
+Literally: TypeAlias = Plain | tuple[int | float, ...]
+"""What OpenSCAD calls a literal: a boolean, a number, a string, or a vector of numbers."""
+
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_LIST = re.compile(r"\s*\[(.*?)\]")
+_LIMITS = re.compile(rf"\s*{NUMBER}\s*(?::\s*{NUMBER}\s*){{0,2}}")
+_OPTION = re.compile(r'\s*(?:"([^"]*)"|([^:,]*?))\s*(?::([^,]*))?(?:,|$)')
+_CHOSEN = 12
+"""Whole numbers with a step, such as 4, 6, 8, are a choice up to this number of them: a model that asks for even
+numbers gets no others. More of them are any whole number between the ends, so that what is learned of one helps for
+the next."""
+
+
+def hint(value: Literally, comment: str) -> tuple[Any, str]:
+    """The annotation of a Python signature, and what the options are called, for a value and the comment behind it.
+
+    The annotation is None where nothing says which values there are: the value is held.
+    Raises ValueError where the comment is in the form of an annotation, but is none for this value.
+    """
+    if isinstance(value, bool):
+        return bool, ""
+    listed = _LIST.match(comment)
+    if listed is None:
+        return None, ""
+    inside = listed[1]
+    if isinstance(value, tuple):
+        if not _LIMITS.fullmatch(inside):
+            return None, ""
+        return tuple[tuple(_limits(inside, one) for one in value)], ""  # type: ignore[misc]
+    if not isinstance(value, str) and _LIMITS.fullmatch(inside):
+        return _limits(inside, value), ""
+    return _options(inside, value)
+
+
+def number(text: str) -> int | float:
+    """A number as it is written: one with a point or an exponent is no whole number."""
+    return int(text) if re.fullmatch(r"[-+]?\d+", text.strip()) else float(text)
+
+
+def _limits(inside: str, value: int | float) -> Any:
+    numbers = [number(part) for part in inside.split(":")]
+    low, high = (0, numbers[0]) if len(numbers) == 1 else (numbers[0], numbers[-1])
+    step = numbers[1] if len(numbers) == 3 else 1
+    if not low < high:
+        raise ValueError(f"[{inside}] has no values; write the lower end first: [low:high] or [low:step:high]")
+    if not step > 0:
+        raise ValueError(f"[{inside}] has a step of {step:g}; write one above 0: [low:step:high]")
+    if all(isinstance(one, int) for one in (value, low, high, step)):
+        return Annotated[int, Range(low, high, _steps(int(low), int(high), int(step), int(value)))]
+    count = (high - low) / step + 1
+    given = len(numbers) == 3 and count >= 2 and abs(count - round(count)) < 1e-6
+    return Annotated[float, Range(low, high, round(count) if given else None)]
+
+
+def _steps(low: int, high: int, step: int, value: int) -> Sequence[float] | None:
+    """The values of whole numbers with a step, the default among them; None where any number is one."""
+    values = sorted({*range(low, high + 1, step), value})
+    return values if step > 1 and low <= value <= high and len(values) <= _CHOSEN else None
+
+
+def _options(inside: str, value: Plain) -> tuple[Any, str]:
+    found: list[Plain] = []
+    labels: list[str] = []
+    strange: list[str] = []
+    for match in _OPTION.finditer(inside):
+        if match.end() == match.start():
+            continue
+        text = (match[2] if match[1] is None else match[1]) or ""
+        if isinstance(value, str):
+            found.append(text)
+        elif re.fullmatch(NUMBER, text):
+            found.append(number(text))
+        else:
+            strange.append(text)
+        if match[3] and match[3].strip() != text:
+            labels.append(f"{text}: {match[3].strip()}")
+    if strange and not found:
+        return None, ""  # a remark, such as [mm]
+    if strange:
+        raise ValueError(f"[{inside}] is for a number, and {strange[0]!r} is none")
+    if len(found) < 2:
+        raise ValueError(f"[{inside}] has one value; write at least two, such as [a, b], or a range: [low:high]")
+    if value not in found:
+        raise ValueError(f"the value {value!r} is not one of [{inside}]; add it, or choose another one")
+    return Literal[tuple(dict.fromkeys(found))], ", ".join(labels)

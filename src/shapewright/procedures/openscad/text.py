@@ -1,0 +1,68 @@
+"""The text of an OpenSCAD file: what in it is code, and what is a comment."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+_TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"?|//[^\n]*|/\*.*?(?:\*/|\Z)', re.DOTALL)
+_FILE = re.compile(r"\b(?:include|use)\s*<([^>\n]+)>|\b(?:import|surface)\s*\([^;]*?\"([^\"\n]+)\"")
+
+
+@dataclass(frozen=True)
+class Comment:
+    """A comment.
+
+    Attributes:
+        start: where it begins in the text.
+        text: what it says.
+        block: whether it stands between ``/*`` and ``*/``.
+    """
+
+    start: int
+    text: str
+    block: bool
+
+
+@dataclass(frozen=True)
+class Text:
+    """A file's text taken apart.
+
+    Attributes:
+        code: the text with blanks in the place of comments; what stands where stays there.
+        bare: the same with blanks inside strings, too.
+        comments: in their order.
+    """
+
+    code: str
+    bare: str
+    comments: tuple[Comment, ...]
+
+    @classmethod
+    def of(cls, text: str) -> Text:
+        comments: list[Comment] = []
+
+        def without_comment(match: re.Match[str]) -> str:
+            found = match[0]
+            if found.startswith('"'):
+                return found
+            block = found.startswith("/*")
+            comments.append(Comment(match.start(), found[2:].removesuffix("*/") if block else found[2:], block))
+            return _blank(found)
+
+        code = _TOKEN.sub(without_comment, text)
+        bare = _TOKEN.sub(lambda match: f'"{_blank(match[0][1:])}', code)
+        return cls(code, bare, tuple(comments))
+
+    def line(self, place: int) -> int:
+        """The number of the line of a place in the text, from 1."""
+        return self.code.count("\n", 0, place) + 1
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """What it includes, uses and imports, as it names it, each once."""
+        return tuple(dict.fromkeys(match[1] or match[2] for match in _FILE.finditer(self.code)))
+
+
+def _blank(text: str) -> str:
+    return re.sub(r"[^\n]", " ", text)
