@@ -12,6 +12,22 @@ from shapewright.parameters import Parameters
 AnswerKind = Literal["carried over", "most similar samples", "predicted"]
 """Where parameters that are shown before the end of a fit come from: the run before, the first samples, the network."""
 
+NoticeKind = Literal["pace", "within", "kept", "stochastic"]
+"""What a notice is about: the cost of a shape, how a limit of time is divided, samples of an earlier run that are used
+again, and a procedure that builds other shapes from the same parameters."""
+
+
+@dataclass(frozen=True)
+class Notice:
+    """Something that whoever watches is told once.
+
+    kind: what it is about.
+    text: the same for a person.
+    """
+
+    kind: NoticeKind
+    text: str
+
 
 @dataclass(frozen=True)
 class Progress:
@@ -25,6 +41,7 @@ class Progress:
     losses: of the epoch of training that ended: epoch, train, validation (None where nothing was held back).
     answer_kind: where ``answer`` comes from; None without one.
     left: seconds that all stages together are likely to take still; None where nobody knows.
+    notice: something that is told now, and not again.
     """
 
     stage: str
@@ -35,8 +52,11 @@ class Progress:
     losses: Mapping[str, float | None] | None = field(default=None, repr=False)
     answer_kind: AnswerKind | None = None
     left: float | None = None
+    notice: Notice | None = None
 
     def __str__(self) -> str:
+        if self.notice:
+            return self.notice.text
         return f"{self.stage} {self.done}/{self.total}{' ' + self.remark if self.remark else ''}"
 
 
@@ -54,6 +74,7 @@ class Stages:
         """shares: of each stage in the time of all, which add up to 1, for telling what is left."""
         self.seconds: dict[str, float] = {}
         self.first_answer: float | None = None
+        self.notices: list[Notice] = []
         self._created = time.perf_counter()
         self._listener = listener
         self._shares = shares or {}
@@ -61,7 +82,16 @@ class Stages:
         self._started = self._told = 0.0
         self._done = self._total = 0
 
+    @property
+    def elapsed(self) -> float:
+        """Seconds since the beginning."""
+        return time.perf_counter() - self._created
+
     def begin(self, stage: str, total: int) -> None:
+        """Begin a stage; one that has begun already goes on."""
+        if stage == self._stage:
+            self.step(min(self._done, total), total)
+            return
         self.end()
         self._stage, self._started, self._told = stage, time.perf_counter(), 0.0
         self.step(0, total)
@@ -85,6 +115,12 @@ class Stages:
             self.first_answer = time.perf_counter() - self._created
         if self._listener:
             self._listener(Progress(self._stage, 1, 1, kind, answer, answer_kind=kind))
+
+    def tell(self, notice: Notice) -> None:
+        """Tell something once; never held back."""
+        self.notices.append(notice)
+        if self._listener:
+            self._listener(Progress(self._stage, self._done, self._total, notice=notice))
 
     def end(self) -> None:
         if self._stage:

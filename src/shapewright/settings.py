@@ -52,9 +52,16 @@ class Preparing:
 
 @dataclass(frozen=True, kw_only=True)
 class Building:
-    """What building one shape may cost."""
+    """What building may cost.
+
+    ``within`` is divided between samples and search by what a shape costs; a run records the numbers that this gave as
+    its ``samples`` and ``refine_shapes``, and no ``within``, so that its settings give the same again.
+    """
 
     shape_seconds: Annotated[float, Within(above=0), "Seconds that building one shape may take."] = 10.0
+    within: Annotated[
+        float | None, Within(above=0), "Seconds that a whole fit may take; None: as long as it takes."
+    ] = None
     shape_memory_mb: Annotated[int, Within(least=1), "Megabytes that building one shape may take."] = 2048
     verbose: Annotated[bool, "Show all that the procedure prints; else the last lines, with a failure."] = False
 
@@ -95,6 +102,7 @@ class Searching:
     facing: Annotated[Facing, "found turns each reference by the quarter turns that fit best."] = "given"
     refine: Annotated[Refine, "How long to search from the prediction."] = "quick"
     refine_seconds: Annotated[float, Within(above=0), "For each reference, of building; thorough: ten times."] = 5.0
+    refine_shapes: Annotated[int | None, Within(least=1), "The same in shapes; None: by refine_seconds."] = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -90,3 +90,25 @@ def test_help_needs_no_torch_and_no_numba():
     code = "import sys; from shapewright.cli.main import app; app(['fit', '--help'], standalone_mode=False); "
     code += "sys.exit(any(name in sys.modules for name in ('torch', 'numba', 'sklearn')))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=120).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"), [("90s", 90), ("10min", 600), ("1h", 3600), ("1.5 h", 5400), ("45", 45), ("2m", 120)]
+)
+def test_a_limit_of_time_is_written_with_its_unit(text, seconds):
+    taken = []
+
+    @with_settings("within")
+    def command(chosen: Mapping[str, Any]) -> None:
+        taken.append(chosen)
+
+    small = typer.Typer()
+    small.command()(command)
+    assert CliRunner().invoke(small, ["--within", text]).exit_code == 0 and taken == [{"within": seconds}]
+    assert CliRunner().invoke(small, []).exit_code == 0 and taken[1] == {}
+
+
+@pytest.mark.parametrize("text", ["soon", "10 parsecs", "-3min", "0s", ""])
+def test_what_is_no_time_is_a_usage_error(text):
+    result = CliRunner().invoke(app, ["fit", "p.py", "references", "--within", text])
+    assert result.exit_code == 2 and "is no time" in result.output

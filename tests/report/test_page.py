@@ -337,6 +337,14 @@ def test_metrics_times_and_what_was_left_out_are_told(page: Page) -> None:
         assert words in page.text
 
 
+def test_a_procedure_that_builds_other_shapes_from_the_same_parameters_is_told(tmp_path: Path) -> None:
+    contents = typical()
+    kinds = {"stochastic": "p.py:3: <random> draws", "pace": "one shape takes 1 s"}
+    contents["metrics"]["notices"] = [{"kind": kind, "text": text} for kind, text in kinds.items()]
+    text = Page(write_report(saved(tmp_path / "001", contents))).text
+    assert "Not steady p.py:3: <random> draws" in text and "one shape takes" not in text
+
+
 def test_a_run_where_all_is_well_has_no_section_of_misfits(tmp_path: Path) -> None:
     contents = record([reference("oak", 0.0), reference("elm", 0.18)])
     contents["collection"]["skipped"] = {}

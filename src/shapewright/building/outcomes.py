@@ -68,12 +68,14 @@ class Build:
         shape: what it built, None when it failed.
         failure: why it failed, None when it did not.
         seconds: wall time.
+        process: number of the process that it was built in; 0 where that is not known.
     """
 
     parameters: Parameters
     shape: Shape | None
     failure: Failure | None = None
     seconds: float = 0.0
+    process: int = 0
 
 
 def describe_failures(builds: Sequence[Build]) -> str:

@@ -22,7 +22,7 @@ from shapewright.procedures import Procedure, ProcedureError
 from shapewright.processes import Limits
 from shapewright.processes.pool import Pool
 from shapewright.settings import Settings
-from shapewright.threads import cores
+from shapewright.threads import cores, in_threads
 
 SLICE = 64
 """Shapes in one request to a worker, at most."""
@@ -44,7 +44,7 @@ class Workers:
         self.procedure = procedure
         self.count = count or cores()
         self.limits = limits or Limits()
-        self._payload = _payload(procedure)
+        self._payload, self._shown = _payload(procedure), shown
         self._pool = Pool(lambda: WorkerProcess(self._payload, self.limits, shown), self.count)
 
     @classmethod
@@ -87,13 +87,45 @@ class Workers:
         done = 0
         for count in _PROBES if give_up else ():
             probes = range(done, min(count, len(parameters)))
-            self._run(parameters, [probes[i : i + 1] for i in range(len(probes))], results, None)
+            self._run(parameters, [probes[i : i + 1] for i in range(len(probes))], results, progress)
             done = max(done, probes.stop)
             _give_up_if_broken([result for result in results[:done] if result is not None], count)
         size = max(1, min(SLICE, (len(parameters) - done) // (4 * self.count)))
         slices = [range(i, min(i + size, len(parameters))) for i in range(done, len(parameters), size)]
         self._run(parameters, slices, results, progress)
         return [result for result in results if result is not None]
+
+    def elsewhere(self, builds: Sequence[Build]) -> list[Build]:
+        """The same shapes built again, each in another process than the one that it was built in.
+
+        Where that process ends, the shapes that it was still to build stay as they are.
+        """
+        if not builds:
+            return []
+        while len(self._pool.idle) < 2:
+            self._pool.idle.append(WorkerProcess(self._payload, self.limits, self._shown))
+        homes = {worker.number: worker for worker in self._pool.idle}
+        asked: dict[WorkerProcess, list[int]] = {}
+        for i, build in enumerate(builds):
+            other = next(worker for number, worker in homes.items() if number != build.process)
+            asked.setdefault(other, []).append(i)
+        results = list(builds)
+
+        def serve(item: tuple[WorkerProcess, list[int]]) -> None:
+            worker, rows = item
+            for i in rows:
+                made = worker.build([builds[i].parameters], threading.Event())
+                results[i] = Build(builds[i].parameters, None, made) if isinstance(made, Failure) else made[0]
+                if isinstance(made, Failure):
+                    worker.stop()
+                    self._pool.idle.remove(worker)
+                    return
+
+        in_threads(serve, list(asked.items()), len(asked))
+        for worker in self._pool.idle[self.count :]:
+            worker.stop()
+        del self._pool.idle[self.count :]
+        return results
 
     def _run(
         self,

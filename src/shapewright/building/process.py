@@ -27,6 +27,11 @@ class WorkerProcess:
         self._worker = Worker(_PROGRAM, self._printed)
         self._load((payload, limits, not shown), START_SECONDS, no_answer(START_SECONDS))
 
+    @property
+    def number(self) -> int:
+        """Of the process."""
+        return self._worker.process.pid
+
     def build(self, parameters: list[Parameters], stop: threading.Event) -> list[Build] | Failure:
         """The builds of the first few vectors (at least one), or the failure that ended the worker.
 

@@ -127,7 +127,7 @@ def build(procedure: Procedure, parameters: Parameters, limits: Limits) -> Build
         failure = Failure.of(too_much(limits))
     except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever the author's code raises is a result
         failure = Failure("raised", describe(error), place_of(error, procedure.path))
-    return Build(parameters, shape, failure, time.perf_counter() - started)
+    return Build(parameters, shape, failure, time.perf_counter() - started, os.getpid())
 
 
 if __name__ == "__main__":

@@ -1,12 +1,11 @@
-"""What the command line prints: progress bars on standard error, summaries and JSON on standard output."""
+"""What the command line prints at its end: summaries and JSON on standard output."""
 
 from __future__ import annotations
 
 import json
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from shlex import quote
 from typing import TYPE_CHECKING, Any
@@ -14,12 +13,8 @@ from typing import TYPE_CHECKING, Any
 import typer
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, Task, TextColumn, TimeRemainingColumn
 from rich.table import Table
-from rich.text import Text
 
-from shapewright.progress import Listener
-from shapewright.progress import Progress as Event
 from shapewright.settings import Settings
 
 if TYPE_CHECKING:
@@ -32,67 +27,6 @@ if TYPE_CHECKING:
 
 out, err = Console(), Console(stderr=True)
 _MOST = 10  # lines of remarks on references
-_DOING = {
-    "axes": "finding up and front",
-    "sample": "building samples",
-    "render": "rendering",
-    "train": "training",
-    "describe": "describing",
-    "predict": "predicting",
-    "replicate": "building replicas",
-    "refine": "refining",
-    "compare": "comparing",
-    "picture": "drawing pictures",
-    "differences": "comparing surfaces",
-    "causes": "looking for causes",
-    "hypotheses": "looking for rules",
-    "trials": "trying suggestions",
-}
-
-
-class _Rate(ProgressColumn):
-    """Steps a second."""
-
-    def render(self, task: Task) -> Text:
-        return Text(f"{task.speed:,.1f}/s" if task.speed else "", style="dim")
-
-
-@contextmanager
-def interruptible(remains: str) -> Iterator[Listener]:
-    """``progress_bars``, until the user interrupts: then the command ends, and says what remains of its work."""
-    try:
-        with progress_bars() as listen:
-            yield listen
-    except KeyboardInterrupt:
-        err.print(f"stopped: {remains}")
-        raise typer.Exit(130) from None
-
-
-@contextmanager
-def progress_bars() -> Iterator[Listener]:
-    """A listener that draws one bar a stage; on a dumb terminal or in a file, one line a stage."""
-    if not err.is_terminal:
-        seen: set[str] = set()
-
-        def write(event: Event) -> None:
-            if event.stage not in seen:
-                seen.add(event.stage)
-                err.print(f"{_DOING.get(event.stage, event.stage)} ({event.total}) ...", highlight=False)
-
-        yield write
-        return
-    columns = (TextColumn("{task.description:>18}"), BarColumn(), MofNCompleteColumn(), _Rate(), TimeRemainingColumn())
-    with Progress(*columns, TextColumn("[dim]{task.fields[remark]}"), console=err) as bars:
-        tasks: dict[str, Any] = {}
-
-        def listen(event: Event) -> None:
-            if event.stage not in tasks:
-                tasks[event.stage] = bars.add_task(_DOING.get(event.stage, event.stage), total=event.total, remark="")
-            left = "" if event.left is None else f"about {event.left:.0f} s left in all"
-            remark = escape(event.remark or left)
-            bars.update(tasks[event.stage], completed=event.done, total=event.total, remark=remark)
-
-        yield listen
 
 
 def print_json(value: Any) -> None:

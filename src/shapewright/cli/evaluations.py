@@ -7,7 +7,8 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from shapewright.cli.console import evaluation_means, out, print_evaluations, print_json, progress_bars
+from shapewright.cli.bars import progress_bars
+from shapewright.cli.console import evaluation_means, out, print_evaluations, print_json
 from shapewright.cli.options import Json, PresetOption, ProcedureArgument, with_settings
 from shapewright.procedures import load_procedure
 from shapewright.settings import Settings

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.markup import escape
 
-from shapewright.cli.console import err, interruptible, iteration_record, print_iteration, print_json
+from shapewright.cli.bars import interruptible
+from shapewright.cli.console import err, iteration_record, print_iteration, print_json
 from shapewright.cli.options import Front, Json, Keep, PresetOption, ProcedureArgument, Up, with_settings
 from shapewright.cli.runs import explain_saved, judged_by_marks
 from shapewright.parameters import Parameters
@@ -36,7 +37,7 @@ _SIDES = 4  # that look like the front of a shape that has none
 
 
 @with_settings(
-    *("seed", "samples", "epochs", "cameras", "views", "augment", "refine", "rounds", "device"),
+    *("seed", "samples", "within", "epochs", "cameras", "views", "augment", "refine", "rounds", "device"),
     *(
         "drop",
         "split",

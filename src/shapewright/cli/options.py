@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
@@ -24,7 +25,17 @@ def option(name: str, default: Any = None) -> Any:
     other = "" if paper == field.default else f"; of the preset paper: {paper}"
     text = "" if default is None or default is False else f"  [dim]default: {default}{other}[/]"
     flag = FLAGS.get(name, f"--{name.replace('_', '-')}")
+    if name == "within":
+        return typer.Option(flag, parser=seconds_of, metavar="TIME", help=f"{field.help}  [dim]90s, 10min, 1h[/]")
     return typer.Option(flag, min=field.within.least, max=field.within.most, help=field.help + text, show_default=False)
+
+
+def seconds_of(text: str) -> float:
+    """What ``90s``, ``10min``, ``1.5h`` or ``90`` means in seconds. Raises typer.BadParameter."""
+    found = re.fullmatch(r"\s*(\d+(?:\.\d+)?|\.\d+)\s*(s|sec|min|m|h)?\s*", text)
+    if not found or float(found[1]) == 0.0:
+        raise typer.BadParameter(f"{text!r} is no time: write 90s, 10min or 1h")
+    return float(found[1]) * {"m": 60.0, "min": 60.0, "h": 3600.0}.get(found[2], 1.0)
 
 
 ProcedureArgument = Annotated[

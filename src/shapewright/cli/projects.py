@@ -24,7 +24,7 @@ def new(name: Annotated[Path, typer.Argument(help="The folder to make.")]) -> No
     if name.exists():
         raise RunError(f"{name}: exists already; name another folder")
     (name / "references").mkdir(parents=True)
-    shutil.copyfile(Path(__file__).with_name("starter.py"), name / "procedure.py")
+    shutil.copyfile(Path(__file__).parent / "starters" / "python.py", name / "procedure.py")
     out.print(f"made {escape(str(name))}/procedure.py and {escape(str(name))}/references/", highlight=False)
     out.print(f"\nPut meshes ({', '.join(MESH_FORMATS)}) into references, then:\n")
     place = escape(str(name))

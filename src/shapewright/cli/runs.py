@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 from rich.markup import escape
 
+from shapewright.cli.bars import interruptible
 from shapewright.cli.console import (
-    interruptible,
     out,
     print_calibration,
     print_comparison,

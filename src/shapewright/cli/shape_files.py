@@ -11,7 +11,8 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from shapewright.cli.console import err, interruptible, out, print_json
+from shapewright.cli.bars import interruptible
+from shapewright.cli.console import err, out, print_json
 from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers
 from shapewright.procedures import ProcedureError, load_procedure
 from shapewright.settings import Settings

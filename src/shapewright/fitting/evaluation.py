@@ -10,6 +10,8 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.fitting.learning import Lesson, learn
+from shapewright.fitting.pacing.pace import paced
+from shapewright.fitting.pacing.stock import Stock
 from shapewright.judging.judge import Judge
 from shapewright.judging.target import Measures
 from shapewright.judging.verdict import Grade
@@ -54,7 +56,9 @@ def evaluate(
         chosen = replace(settings, seed=seed)
         stages = Stages(progress)
         with Workers.of(procedure, chosen) as crew:
-            lesson = learn(crew, chosen, stages)
+            stock = Stock(crew)
+            chosen = paced(stock, chosen, stages)
+            lesson = learn(crew, chosen, stages, stock=stock)
             stages.end()
             seconds = sum(stages.seconds.values())
             metrics = lesson.predictor.metrics

@@ -8,6 +8,8 @@ from pathlib import Path
 from shapewright.building import Workers
 from shapewright.fitting.facing import quarter_turns
 from shapewright.fitting.learning import learn, learn_more
+from shapewright.fitting.pacing.pace import paced
+from shapewright.fitting.pacing.stock import Stock
 from shapewright.fitting.pictures import suited
 from shapewright.fitting.replicas import replicate, resume
 from shapewright.fitting.results import followed, judged, recorded, telling
@@ -43,7 +45,7 @@ def fit(
             decide how meshes stand.
         settings: how the iteration runs; the defaults are made for laptops.
         progress: called with a Progress a few times a second; ``print`` will do. Within seconds one holds an answer.
-        cache: a folder that keeps the references' descriptors between iterations.
+        cache: a folder that keeps the references' descriptors between iterations, and samples that took long to build.
         previous: an iteration with an earlier version of the procedure, to resume. Its parameters, network and cameras
             are carried over, which takes a third of the time.
         known: parameters that are worth a trial, by the name of their reference: those of a suggestion, for instance.
@@ -61,7 +63,10 @@ def fit(
         like = following(references, settings, settings.workers)
         stages, fitted = Stages(progress and telling(progress, like)), leading(references, like)
         start = Start.of(fitted, procedure.space, previous, known)
-        lesson = learn(crew, settings, stages, start)
+        stock = Stock(crew, cache)
+        settings = paced(stock, settings, stages, start)
+        lesson = learn(crew, settings, stages, start, stock)
+        stock.keep()
         turns = quarter_turns(fitted, lesson.predictor, crew, settings, stages)
         stages.begin("describe", len(fitted))
         judge = Judge.of(fitted.turned(turns), settings, cache)

@@ -11,6 +11,8 @@ import numpy as np
 
 from shapewright.building import Build, Workers, describe_failures
 from shapewright.fitting.adaptive import around
+from shapewright.fitting.pacing.pace import paced
+from shapewright.fitting.pacing.stock import Stock
 from shapewright.fitting.sensitivity import without_effect
 from shapewright.fitting.start import Start
 from shapewright.parameters import Parameters, ParameterSpace
@@ -26,7 +28,7 @@ from shapewright.prediction.views.silhouettes import redrawn, view_dataset
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.rendering.cameras import ANYWHERE, PAGE, Camera, starting_views
-from shapewright.search.budgets import DRAWN, DRAWN_THOROUGH, QUICK, THOROUGH, VIEWED, VIEWED_THOROUGH, Budget
+from shapewright.search.budgets import Budget, whole
 from shapewright.settings import Searching, Settings
 from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape, Shape, extent_of
 
@@ -45,15 +47,10 @@ class Lesson:
 
     def budget(self, settings: Searching) -> Budget:
         """How long to refine: what the settings say, or less where a shape takes long to build."""
-        quick, thorough = QUICK, THOROUGH
-        if self.training.kind is Drawing:
-            quick, thorough = DRAWN, DRAWN_THOROUGH
-        elif self.training.cameras == (ANYWHERE,):
-            quick, thorough = VIEWED, VIEWED_THOROUGH
-        budget, seconds = quick, settings.refine_seconds
-        if settings.refine == "thorough":
-            budget, seconds = thorough, 10.0 * settings.refine_seconds
-        evaluations = seconds / max(self.facts["build_seconds"], 1e-6)
+        thorough = settings.refine == "thorough"
+        budget = whole(self.training.kind is Drawing, self.training.cameras == (ANYWHERE,), thorough)
+        seconds = 10.0 * settings.refine_seconds if thorough else settings.refine_seconds
+        evaluations = settings.refine_shapes or seconds / max(self.facts["build_seconds"], 1e-6)
         return budget.within(evaluations, int(self.predictor.space.scalars.sum()))
 
 
@@ -62,18 +59,22 @@ def train(procedure: Procedure, settings: Settings | None = None, progress: List
     settings = settings or Settings()
     stages = Stages(progress)
     with Workers.of(procedure, settings) as crew:
-        lesson = learn(crew, settings, stages)
+        stock = Stock(crew)
+        lesson = learn(crew, paced(stock, settings, stages), stages, stock=stock)
     stages.end()
     return lesson.predictor
 
 
-def learn(crew: Workers, settings: Settings, stages: Stages, start: Start | None = None) -> Lesson:
+def learn(
+    crew: Workers, settings: Settings, stages: Stages, start: Start | None = None, stock: Stock | None = None
+) -> Lesson:
     """Train on random samples of the whole space.
 
     start: of a fit. Its references say whether the procedure is to build meshes or drawings; by default it may build
     either. Its predictor is trained further. ``stages`` gets a first answer for its references: the known parameters
-    at once, or those of the most similar of the first samples.
+    at once, or those of the most similar of the first samples. stock: samples that are built already.
     """
+    stock = stock or Stock(crew)
     space, previous = crew.procedure.space, start.predictor if start else None
     if start and start.resumed:
         stages.answer(start.answer, "carried over")
@@ -81,7 +82,9 @@ def learn(crew: Workers, settings: Settings, stages: Stages, start: Start | None
     count = min(settings.samples, settings.warm_samples) if previous else settings.samples
     vectors = space.sample(count, seed=settings.seed)
     stages.begin("sample", len(vectors))
-    builds = crew.build(vectors[:FIRST], give_up=True)
+    if kept := stock.hold(vectors, settings.seed):
+        stages.tell(kept)
+    builds = stock.build(vectors[:FIRST], lambda done, _: stages.step(done, len(vectors)), give_up=True)
     kind: type[Shape] = next((type(build.shape) for build in builds if build.shape is not None), Mesh)
     if start:
         kind = start.references.kind
@@ -91,7 +94,7 @@ def learn(crew: Workers, settings: Settings, stages: Stages, start: Start | None
     first = _draw(crew.procedure, builds, cameras, settings, kind)
     if start and not start.resumed:
         stages.answer(start.most_similar(first, settings.workers), "most similar samples")
-    builds += crew.build(vectors[FIRST:], lambda done, total: stages.step(FIRST + done, FIRST + total))
+    builds += stock.build(vectors[FIRST:], lambda done, total: stages.step(FIRST + done, FIRST + total))
     inert = without_effect(space, shapes_of(builds, kind)[0], crew.build, settings.seed, settings.workers)
     stages.begin("render", len(vectors))
     data = join([first, _draw(crew.procedure, builds[FIRST:], cameras, settings, kind)]) if builds[FIRST:] else first

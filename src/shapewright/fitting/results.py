@@ -151,6 +151,7 @@ def recorded(
             "samples": predictor.samples,
             **lesson.facts,
             "first_answer": stages.first_answer,
+            "notices": [vars(notice) for notice in stages.notices],
             "turned": {name: 90 * turn for name, turn in turns.items() if turn},
             "epochs": len(predictor.curve),
             "curve": [vars(epoch) for epoch in predictor.curve],

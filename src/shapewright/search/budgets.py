@@ -144,3 +144,12 @@ VIEWED_THOROUGH = Budget(
         *(Step(1, scatter=4),) * 4,
     )
 )
+
+
+def whole(drawn: bool, in_views: bool, thorough: bool) -> Budget:
+    """The budget of a procedure that draws, of references that are pictures of objects, or of meshes."""
+    if drawn:
+        return DRAWN_THOROUGH if thorough else DRAWN
+    if in_views:
+        return VIEWED_THOROUGH if thorough else VIEWED
+    return THOROUGH if thorough else QUICK

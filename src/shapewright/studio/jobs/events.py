@@ -7,6 +7,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias
 
@@ -64,6 +65,7 @@ class Reporter:
 
     def __init__(self, stream: BinaryIO) -> None:
         self._stream = stream
+        self._notices: dict[str, str] = {}  # of each stage
 
     def send(self, event: AnyEvent) -> None:
         write_frame(self._stream, event)
@@ -77,6 +79,10 @@ class Reporter:
         if progress.answer is not None and progress.answer_kind is not None:
             self.send(Guessed(kind=progress.answer_kind, answer=dict(progress.answer)))
             return
+        if progress.notice:
+            before = self._notices.get(progress.stage, "")
+            self._notices[progress.stage] = f"{before} {progress.notice.text}".strip()
+        progress = replace(progress, remark=progress.remark or self._notices.get(progress.stage, ""))
         losses = Epoch(**progress.losses) if progress.losses else None  # type: ignore[arg-type]
         self.send(message_of(Advanced, progress, losses=losses))
 

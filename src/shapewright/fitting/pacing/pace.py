@@ -1,0 +1,100 @@
+"""The first shapes of a fit: what one costs is told before anything long starts, and whether it is always the same."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+import numpy as np
+
+from shapewright.building import Build
+from shapewright.fitting.pacing.division import Work, divided
+from shapewright.fitting.pacing.steadiness import unsteady
+from shapewright.fitting.pacing.stock import PROBES, Stock
+from shapewright.fitting.start import Start
+from shapewright.parameters import ParameterSpace
+from shapewright.progress import Notice, Stages
+from shapewright.search.budgets import whole
+from shapewright.settings import Settings
+from shapewright.shapes import Drawing
+
+_PATIENCE = 3.0
+"""Seconds after which something is told although the first shapes are not there yet."""
+_SLOW = 30.0
+"""Seconds of building samples from which on their cost is told."""
+_FEW = 500
+"""Samples that do for many procedures of CAD: build123d's bracket was found in 12 of 12 references by so many."""
+_TRIED = 4
+"""Shapes that are built for each parameter, to see whether it has an effect: at least."""
+
+
+def paced(stock: Stock, settings: Settings, stages: Stages, start: Start | None = None) -> Settings:
+    """The settings, with ``within`` divided by what the first samples cost.
+
+    It tells how long the samples take, where that is long, and what makes it shorter; and of a procedure that builds
+    another shape from the same parameters. Raises ProcedureError as ``Workers.build`` does.
+    """
+    crew, space = stock.crew, stock.crew.procedure.space
+    most = min(settings.samples, settings.warm_samples) if start and start.predictor else settings.samples
+    vectors = space.sample(most, seed=settings.seed)
+    stages.begin("sample", len(vectors))
+    begun, told = time.perf_counter(), False
+
+    def step(done: int, _: int) -> None:
+        nonlocal told
+        stages.step(done, len(vectors))
+        if not told and (spent := time.perf_counter() - begun) > _PATIENCE:
+            told = True
+            stages.tell(_cost(spent * crew.count / max(done, crew.count), len(vectors), crew.count, not done))
+
+    builds = stock.fresh(vectors[:PROBES], step)
+    wrong = unsteady(crew, builds)
+    if wrong:
+        stages.tell(wrong)
+        stock.forget()
+    seconds = float(np.mean([build.seconds for build in builds]))
+    if settings.within is not None:
+        work = _work(space, settings, builds, len(vectors), start)
+        left = settings.within - stages.elapsed
+        divided_settings = divided(settings, work, seconds, crew.count, left)
+        stages.tell(_division(settings.within, divided_settings, seconds))
+        return divided_settings
+    if not told and seconds * len(vectors) / crew.count > _SLOW:
+        stages.tell(_cost(seconds, len(vectors), crew.count))
+    return settings
+
+
+def _work(
+    space: ParameterSpace, settings: Settings, builds: Sequence[Build], samples: int, start: Start | None
+) -> Work:
+    """What a fit builds besides samples; a training alone replicates nothing."""
+    references = len(start.references) if start else 0
+    replicas = references * (2 + (4 if settings.facing == "found" else 0))
+    rounds = settings.rounds * (settings.round_samples + 2 * references)
+    drawn = any(isinstance(build.shape, Drawing) for build in builds)
+    budget = whole(drawn, start is not None and start.references.in_views, settings.refine == "thorough")
+    search = 0 if settings.refine == "off" or not references else budget.evaluations(int(space.scalars.sum()))
+    return Work(samples, references, _TRIED * len(space) + replicas + rounds, search)
+
+
+def _cost(seconds: float, samples: int, cores: int, at_least: bool = False) -> Notice:
+    longer = "more than " if at_least else ""
+    text = f"one shape takes {longer}{lasting(seconds)}: {samples:,} samples take "
+    text += f"{longer or 'about '}{lasting(seconds * samples / cores)} on {cores} {'core' if cores == 1 else 'cores'}"
+    if samples > _FEW:
+        text += f"; {_FEW} take {lasting(seconds * _FEW / cores)}"
+    return Notice("pace", text)
+
+
+def _division(within: float, settings: Settings, seconds: float) -> Notice:
+    text = f"one shape takes {lasting(seconds)}: {settings.samples:,} samples"
+    if settings.refine_shapes and settings.refine != "off":
+        text += f", and {settings.refine_shapes} shapes of a search for each reference,"
+    return Notice("within", f"{text} fit in {lasting(within)}")
+
+
+def lasting(seconds: float) -> str:
+    """A time in words, to two digits: 0.25 s, 40 s, 8 min, 1.6 h."""
+    if seconds < 90.0:
+        return f"{float(f'{seconds:.2g}'):g} s"
+    return f"{float(f'{seconds / 60:.2g}'):g} min" if seconds < 5400.0 else f"{float(f'{seconds / 3600:.2g}'):g} h"

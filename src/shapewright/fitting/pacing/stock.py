@@ -1,0 +1,165 @@
+"""Samples of a procedure that builds slowly, kept between runs and used again where they still hold."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+from collections.abc import Callable, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+
+from shapewright.building import Build, Workers
+from shapewright.fitting.pacing.filing import LEAST_SECONDS, read, tidy, write
+from shapewright.parameters import Parameters, Value
+from shapewright.procedures import Procedure
+from shapewright.progress import Notice
+from shapewright.shapes import Mesh, Shape, shape_digest
+from shapewright.shapes.conversion.libraries import kernel
+
+PROBES = 8
+"""First samples of every run, which are built anew: they tell the cost of a shape, and whether kept ones hold."""
+_PROBED = 16
+"""Samples that are built anew after an edit, besides: at least."""
+_PROBED_MOST = 48
+"""And at most, where parameters have many classes."""
+
+Key: TypeAlias = tuple[Value, ...]
+
+
+class Stock:
+    """Builds of samples: those of this run, and those that a folder keeps of runs before.
+
+    Kept samples are used only where a run asks for the same parameters, and while the procedure builds the same. It is
+    said to when the first samples of a run, built anew, equal the kept ones to the bit, and the text of the procedure
+    and of what it imports from its folder is the same but for comments and layout. After another edit 16 to 48 more are
+    built anew, among them one for each class of each parameter; all must be equal, or nothing is used again.
+    """
+
+    def __init__(self, crew: Workers, folder: Path | None = None) -> None:
+        """folder: where samples are kept; without one, or without a file of the procedure, none are."""
+        self.crew = crew
+        self._path: Path | None = None
+        self._built: dict[Key, Build] = {}
+        self._kept: dict[Key, Build] = {}
+        self._same = False
+        self._used = 0
+        procedure = crew.procedure
+        if folder and procedure.path:
+            name = hashlib.sha256(f"{procedure.path}:{procedure.name}".encode()).hexdigest()[:20]
+            self._path = folder / "samples" / f"{name}.npz"
+            digest, builds = read(self._path)
+            names = list(procedure.space.names)
+            self._kept = {_key(build.parameters): build for build in builds if list(build.parameters) == names}
+            self._same = digest == text_digest(procedure)
+
+    def fresh(self, vectors: Sequence[Parameters], progress: Callable[[int, int], None] | None = None) -> list[Build]:
+        """Build the first samples of a run, and forget what was kept where it is not the same any more.
+
+        Raises ProcedureError where the procedure is broken.
+        """
+        builds = self.crew.build(vectors, progress, give_up=True)
+        self._take(builds)
+        return builds
+
+    def hold(self, vectors: Sequence[Parameters], seed: int) -> Notice | None:
+        """Before the samples of a run: build some that are kept anew, where the text was edited.
+
+        Returns what to tell where kept ones are used.
+        """
+        asked = [vector for vector in vectors if _key(vector) in self._kept and _key(vector) not in self._built]
+        if asked and not self._same:
+            self._take(self.crew.build(_probes(asked, self.crew.procedure, seed)))
+        found = sum(_key(vector) in self._kept for vector in asked)
+        return Notice("kept", f"{found:,} samples of an earlier run are used again") if found else None
+
+    def build(
+        self,
+        vectors: Sequence[Parameters],
+        progress: Callable[[int, int], None] | None = None,
+        give_up: bool = False,
+    ) -> list[Build]:
+        """Builds of all vectors, of which those that are known are not built again. give_up: as of ``Workers``."""
+        known = {**self._kept, **self._built}
+        missing = [vector for vector in vectors if _key(vector) not in known]
+        have = len(vectors) - len(missing)
+        step = progress and (lambda done, _: progress(have + done, len(vectors)))
+        for build in self.crew.build(missing, step, give_up and not known):
+            self._built[_key(build.parameters)] = build
+        known |= self._built
+        return [known[_key(vector)] for vector in vectors]
+
+    def forget(self) -> None:
+        """Neither use nor keep any: the procedure builds other shapes from the same parameters."""
+        self._kept, self._path = {}, None
+
+    def keep(self) -> None:
+        """Put the samples into the folder, where building them took long."""
+        made = [build for build in self._built.values() if build.shape is not None]
+        if self._path is None or not made:
+            return
+        if np.mean([build.seconds for build in made]) >= LEAST_SECONDS:
+            write(self._path, text_digest(self.crew.procedure), list({**self._kept, **self._built}.values()))
+            tidy(self._path.parent)
+
+    def _take(self, builds: Sequence[Build]) -> None:
+        """New builds; kept ones go where one of them is not equal."""
+        for build in builds:
+            old = self._kept.get(_key(build.parameters))
+            self._built[_key(build.parameters)] = build
+            if old and not _equal(old, build):
+                self._kept = {}
+
+
+def text_digest(procedure: Procedure) -> str:
+    """Of all that decides what a procedure builds, as far as it is in files of its folder and in this package.
+
+    Comments and layout of Python do not count.
+    """
+    texts = [procedure.source.encode(), *(file.read_bytes() for file in procedure.helpers if file.is_file())]
+    parts = [_meaning(text) for text in texts]
+    parts += [
+        repr(procedure.facts),
+        repr((kernel.TESSELLATION, kernel.ANGLE, kernel.ANGLE_DRAWN)),
+        version("shapewright"),
+    ]
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()
+
+
+def _meaning(text: bytes) -> str:
+    try:
+        return ast.dump(ast.parse(text))
+    except (SyntaxError, ValueError):
+        return hashlib.sha256(text).hexdigest()
+
+
+def _key(parameters: Parameters) -> Key:
+    return tuple(parameters.values())
+
+
+def _equal(one: Build, other: Build) -> bool:
+    if one.shape is None or other.shape is None:
+        return one.shape is other.shape and one.failure == other.failure
+    return _bits(one.shape) == _bits(other.shape)
+
+
+def _bits(shape: Shape) -> tuple[object, ...]:
+    named = (shape.labels, shape.rules) if isinstance(shape, Mesh) else ()
+    return (type(shape), shape_digest(shape), *named)
+
+
+def _probes(vectors: Sequence[Parameters], procedure: Procedure, seed: int) -> list[Parameters]:
+    """Some of the vectors, drawn by the seed: one of each class of each parameter first."""
+    drawn = [vectors[i] for i in np.random.default_rng(seed).permutation(len(vectors))]
+    classes = [parameter.name for parameter in procedure.space if parameter.classes]
+    seen: set[tuple[str, Value]] = set()
+    chosen: list[Parameters] = []
+    for vector in drawn:
+        new = {(name, vector[name]) for name in classes} - seen
+        if new and len(chosen) < _PROBED_MOST:
+            seen |= new
+            chosen.append(vector)
+    others = [vector for vector in drawn if vector not in chosen]
+    return chosen + others[: max(0, _PROBED - len(chosen))]

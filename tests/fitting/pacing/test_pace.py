@@ -1,0 +1,83 @@
+import pytest
+
+import shapewright as sw
+from shapewright.building import Workers
+from shapewright.fitting.pacing import pace
+from shapewright.fitting.pacing.pace import lasting, paced
+from shapewright.fitting.pacing.stock import PROBES, Stock
+from shapewright.fitting.start import Start
+from shapewright.modelling.solids import box
+from shapewright.progress import Stages
+
+SOURCE = """
+import time
+from typing import Annotated
+from shapewright import Range, procedure
+from shapewright.modelling.solids import box
+
+@procedure
+def block(height: Annotated[float, Range(0.2, 1.0)] = 0.5, depth: Annotated[float, Range(0.2, 1.0)] = 0.5):
+    time.sleep({seconds})
+    return box((1.0, height, depth))
+"""
+
+
+def slow(tmp_path, seconds):
+    path = tmp_path / "block.py"
+    path.write_text(SOURCE.format(seconds=seconds))
+    return sw.load_procedure(path)
+
+
+def begun(procedure, settings, told, start=None):
+    stages = Stages(told.append)
+    with Workers.of(procedure, settings) as crew:
+        stock = Stock(crew)
+        return paced(stock, settings, stages, start), stock
+
+
+def notices(told):
+    return [event.notice for event in told if event.notice]
+
+
+def test_what_samples_take_is_told_before_they_are_built_and_the_bar_moves_from_the_first(tmp_path):
+    told = []
+    settings = sw.Settings(workers=1)
+    same, _ = begun(slow(tmp_path, 0.1), settings, told)
+    (notice,) = notices(told)
+    assert same == settings and notice.kind == "pace"
+    assert notice.text.startswith("one shape takes 0.1") and "3,000 samples take about" in notice.text
+    assert "on 1 core" in notice.text and "; 500 take" in notice.text and str(told[-1]) == notice.text
+    assert {event.done for event in told if event.stage == "sample"} & set(range(1, PROBES))
+
+
+def test_a_quick_procedure_is_told_nothing(tmp_path):
+    told = []
+    begun(slow(tmp_path, 0.0), sw.Settings(workers=1), told)
+    assert notices(told) == []
+
+
+def test_a_word_comes_before_the_first_shape_is_there(tmp_path, monkeypatch):
+    monkeypatch.setattr(pace, "_PATIENCE", 0.05)
+    told = []
+    begun(slow(tmp_path, 0.6), sw.Settings(workers=1), told)
+    first = notices(told)[0]
+    assert first.text.startswith("one shape takes more than ") and "3,000 samples take more than" in first.text
+    assert next(event for event in told if event.notice).done == 0
+
+
+def test_a_limit_of_time_becomes_numbers_and_the_first_shapes_are_samples(tmp_path):
+    told = []
+    settings = sw.Settings(workers=1, within=20.0)
+    start = Start.of(sw.Collection.of({"one": box((1, 0.5, 0.5)).mesh()}), slow(tmp_path, 0.1).space, None)
+    found, stock = begun(slow(tmp_path, 0.1), settings, told, start)
+    assert found.within is None and 20 <= found.samples < 200 and found.refine_shapes >= 1
+    (notice,) = notices(told)
+    assert notice.kind == "within" and notice.text.endswith("fit in 20 s") and f"{found.samples} samples" in notice.text
+    assert len(stock._built) == PROBES
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"), [(0.254, "0.25 s"), (1.0, "1 s"), (44.6, "45 s"), (480.0, "8 min"), (5760.0, "1.6 h")]
+)
+def test_a_time_in_words(seconds, words):
+    assert lasting(seconds) == words
