@@ -36,6 +36,9 @@ class Workers:
     The results are in the order of the request and do not depend on the number of workers.
 
     shown: what the author's code prints goes to standard error; by default its last lines are kept for failures.
+
+    Attributes:
+        costs: seconds of every shape that was built so far, also while others are.
     """
 
     def __init__(
@@ -44,6 +47,7 @@ class Workers:
         self.procedure = procedure
         self.count = count or cores()
         self.limits = limits or Limits()
+        self.costs: list[float] = []
         self._payload, self._shown = _payload(procedure), shown
         self._pool = Pool(lambda: WorkerProcess(self._payload, self.limits, shown), self.count)
 
@@ -170,6 +174,7 @@ class Workers:
             return None
         for i, build in zip(piece, outcome, strict=False):
             results[i] = build
+            self.costs.append(build.seconds)
         if len(outcome) < len(piece):
             tasks.put(piece[len(outcome) :])
         return worker

@@ -10,10 +10,10 @@ from shapewright.settings import Settings
 SAMPLES_SHARE = 2 / 3
 """Of the time that is free, for samples and training. Our estimate: build123d's bracket was found from 500 samples."""
 _LEARN_SECONDS = 4.5e-4
-"""Wall time of one sample in one epoch of the compact network, at 3 views of 64 pixels, on two cores. Measured on the
-demo's tables, rendering included."""
+"""Wall time of one sample in one epoch of the compact network, at 3 views of 64 pixels, on two cores: 3,000 samples and
+15 epochs take 14 to 16 s (docs/benchmarks.md). Pictures come on top."""
 _MEASURE_SECONDS = 0.012
-"""CPU time of measuring one shape in a search. Measured on the demo's tables."""
+"""CPU time of measuring one shape in a search: docs/benchmarks.md has 3 to 11 ms a pair."""
 _LEAST_SAMPLES = 20
 
 

@@ -19,7 +19,9 @@ from shapewright.settings import Settings
 from shapewright.shapes import Drawing
 
 _PATIENCE = 3.0
-"""Seconds after which something is told although the first shapes are not there yet."""
+"""Seconds after which something is told although few shapes are there yet, or none."""
+_ENOUGH = 3
+"""Shapes that tell the cost of others. The first of each process may have something to load."""
 _SLOW = 30.0
 """Seconds of building samples from which on their cost is told."""
 _FEW = 500
@@ -38,14 +40,22 @@ def paced(stock: Stock, settings: Settings, stages: Stages, start: Start | None 
     most = min(settings.samples, settings.warm_samples) if start and start.predictor else settings.samples
     vectors = space.sample(most, seed=settings.seed)
     stages.begin("sample", len(vectors))
-    begun, told = time.perf_counter(), False
+    begun, told, before = time.perf_counter(), "", len(crew.costs)
 
     def step(done: int, _: int) -> None:
         nonlocal told
         stages.step(done, len(vectors))
-        if not told and (spent := time.perf_counter() - begun) > _PATIENCE:
-            told = True
-            stages.tell(_cost(spent * crew.count / max(done, crew.count), len(vectors), crew.count, not done))
+        costs, spent = crew.costs[before:], time.perf_counter() - begun
+        if told != "cost" and (len(costs) >= _ENOUGH or (costs and spent > _PATIENCE)):
+            told = "cost"
+            tell_cost(float(np.median(costs)))
+        elif not told and spent > _PATIENCE:
+            told = "wait"
+            stages.tell(_wait(spent, len(vectors), crew.count))
+
+    def tell_cost(seconds: float) -> None:
+        if settings.within is None and seconds * len(vectors) / crew.count > _SLOW:
+            stages.tell(_cost(seconds, len(vectors), crew.count))
 
     builds = stock.fresh(vectors[:PROBES], step)
     wrong = unsteady(crew, builds)
@@ -56,11 +66,9 @@ def paced(stock: Stock, settings: Settings, stages: Stages, start: Start | None 
     if settings.within is not None:
         work = _work(space, settings, builds, len(vectors), start)
         left = settings.within - stages.elapsed
-        divided_settings = divided(settings, work, seconds, crew.count, left)
-        stages.tell(_division(settings.within, divided_settings, seconds))
-        return divided_settings
-    if not told and seconds * len(vectors) / crew.count > _SLOW:
-        stages.tell(_cost(seconds, len(vectors), crew.count))
+        counted = divided(settings, work, seconds, crew.count, left)
+        stages.tell(_division(settings.within, counted, seconds))
+        return counted
     return settings
 
 
@@ -77,10 +85,18 @@ def _work(
     return Work(samples, references, _TRIED * len(space) + replicas + rounds, search)
 
 
-def _cost(seconds: float, samples: int, cores: int, at_least: bool = False) -> Notice:
-    longer = "more than " if at_least else ""
-    text = f"one shape takes {longer}{lasting(seconds)}: {samples:,} samples take "
-    text += f"{longer or 'about '}{lasting(seconds * samples / cores)} on {cores} {'core' if cores == 1 else 'cores'}"
+def _wait(seconds: float, samples: int, cores: int) -> Notice:
+    text = f"no shape is built after {lasting(seconds)}: if each takes as long, {samples:,} samples take "
+    return Notice("pace", f"{text}{lasting(seconds * samples / cores)} on {_cores(cores)}")
+
+
+def _cores(count: int) -> str:
+    return "1 core" if count == 1 else f"{count} cores"
+
+
+def _cost(seconds: float, samples: int, cores: int) -> Notice:
+    text = f"one shape takes {lasting(seconds)}: {samples:,} samples take "
+    text += f"about {lasting(seconds * samples / cores)} on {_cores(cores)}"
     if samples > _FEW:
         text += f"; {_FEW} take {lasting(seconds * _FEW / cores)}"
     return Notice("pace", text)
