@@ -39,6 +39,23 @@ def test_las_and_laz_of_every_version(tmp_path, end, version, kind):
             contents(path)
 
 
+def test_laz_that_announces_more_than_there_is_is_refused_before_memory_is_taken(tmp_path):
+    laspy = pytest.importorskip("laspy", reason=WHY)
+    las = laspy.LasData(laspy.LasHeader(version="1.2", point_format=0))
+    las.x, las.y, las.z = PLACES.T
+    path = tmp_path / "a.laz"
+    las.write(path)
+    data = path.read_bytes()
+    points = int.from_bytes(data[96:100], "little")
+    table = int.from_bytes(data[points : points + 8], "little")
+    for at, why in ((table + 4, r"announces \d+ chunks"), (100, "records do not fit"), (25, r"LAS 1\.255")):
+        path.write_bytes(data[:at] + b"\xff\xff\xff\x7f" + data[at + 4 :])
+        with pytest.raises(UnreadableError, match=why):
+            contents(path)
+    path.write_bytes(data[:points] + b"\xff" * 8 + data[points + 8 :] + table.to_bytes(8, "little"))
+    assert len(contents(path).shape) == len(PLACES)
+
+
 def test_all_scans_of_an_e57_stand_where_their_poses_put_them(tmp_path):
     pye57 = pytest.importorskip("pye57", reason=WHY)
     path = tmp_path / "a.e57"
@@ -57,7 +74,7 @@ def test_all_scans_of_an_e57_stand_where_their_poses_put_them(tmp_path):
     data = path.read_bytes()
     for broken in (data[:-1000], data + b"1", data[:2000] + bytes([data[2000] ^ 1]) + data[2001:]):
         path.write_bytes(broken)
-        with pytest.raises(UnreadableError):
+        with pytest.raises(UnreadableError, match=r"declares|checksum mismatch, file is corrupted$"):
             contents(path)
 
 

@@ -37,7 +37,7 @@ def test_a_file_that_ends_hangs_or_fills_its_process_is_lost_alone_and_told(tmp_
     refs = Collection.load(write(tmp_path / "refs", "a.glb", "dies.glb", "b.obj", "eats.glb", "hangs.glb", "z.glb"))
     assert refs.names == ("a", "b", "z")
     assert {path.stem: reason for path, reason in refs.skipped.items()} == {
-        "dies": "reading it killed its process (signal 11)",
+        "dies": "reading it killed its process (signal 11); export it again, or in another format",
         "eats": "reading it needs more than 0.5 GB of memory",
         "hangs": "reading it took more than 4 s",
     }
@@ -83,6 +83,10 @@ def test_what_is_not_there_has_its_reason_without_a_process(tmp_path):
         assert readers._calls._pool.idle == []
     assert isinstance(kept.shape, Mesh)
     assert isinstance(gone, UnreadableError) and "no such file" in str(gone)
+
+
+def test_a_large_file_may_take_longer_than_a_small_one_and_none_more_than_a_minute():
+    assert [reading._limits(size).seconds for size in (1000, 4 * 2**20, 2**30)] == [20.0, 40.0, 60.0]
 
 
 def test_a_large_file_may_take_more_memory_than_a_small_one(tmp_path, monkeypatch):

@@ -54,7 +54,7 @@ def run_program(
         words: the program and its arguments.
         folder: that it runs in.
         seconds: wall time that it may take; None without a limit.
-        memory_mb: megabytes of address space that it may take (POSIX); None without a limit.
+        memory_mb: megabytes that it may write to (Linux); None without a limit.
         environment: further variables.
     """
     with tempfile.TemporaryFile() as told, tempfile.TemporaryFile() as failed:
@@ -82,7 +82,7 @@ def allow(memory_mb: int | None) -> None:
 
     with contextlib.suppress(ValueError, OSError):
         most = resource.RLIM_INFINITY if memory_mb is None else memory_mb * 2**20
-        resource.setrlimit(resource.RLIMIT_AS, (most, resource.getrlimit(resource.RLIMIT_AS)[1]))
+        resource.setrlimit(resource.RLIMIT_DATA, (most, resource.getrlimit(resource.RLIMIT_DATA)[1]))
 
 
 def _wait(process: subprocess.Popen[bytes], seconds: float | None) -> bool:

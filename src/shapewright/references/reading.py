@@ -21,8 +21,10 @@ _PLAIN = frozenset([".obj", ".off", ".ply", ".stl", ".xyz", ".xyzn", ".xyzrgb", 
 time that they take are in proportion to the file."""
 _SMALL, _IN_ALL = 2 * 2**20, 16 * 2**20
 """Bytes of a plain file that is read here, and of all that are. Text takes .1 s of CPU a megabyte."""
-_SECONDS = 60.0
-"""That a file may take. The largest text that fits in the memory, 1.5 GB of STL, takes 50."""
+_SECONDS, _MORE, _MOST = 20.0, 5.0, 60.0
+"""That a file may take, what it may take more for each megabyte, and at most. The first of all compiles kernels, which
+takes 6 s of CPU; no other small file took 5 (benchmarks/fuzzing.py). The largest text that fits in the memory, 1.5 GB
+of STL, takes 50."""
 _MEMORY, _TIMES = 1024, 12
 """Megabytes that a file may take, and times its size besides. A million triangles take 200 to 560 MB, at most 11 times
 the size of their file."""
@@ -91,7 +93,7 @@ def _size(source: Source) -> int:
 
 
 def _limits(size: int) -> Limits:
-    return Limits(_SECONDS, _MEMORY + _TIMES * size // 2**20)
+    return Limits(min(_SECONDS + _MORE * (size // 2**20), _MOST), _MEMORY + _TIMES * size // 2**20)
 
 
 def _reason(loss: Loss, limits: Limits) -> str:
@@ -101,4 +103,4 @@ def _reason(loss: Loss, limits: Limits) -> str:
         case "memory":
             return f"reading it needs more than {limits.memory_mb / 1024:.3g} GB of memory"
         case "crash":
-            return f"reading {loss.message}"
+            return f"reading {loss.message}; export it again, or in another format"

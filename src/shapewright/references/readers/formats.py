@@ -123,7 +123,7 @@ def contents(path: Path, view: bool = False, mask: Path | None = None) -> Conten
             data = b""  # large text need not be held any longer
             if isinstance(polygons, Cloud):
                 return _points(polygons)
-            vertices, notes = polygons.vertices, polygons.notes
+            vertices, notes = polygons.vertices, (*polygons.notes, *_few(polygons))
             scene = Scene(vertices, triangulate(polygons), notes, parts=polygons.parts_of_triangles)
         else:
             scene = _SCENES[kind](path, data)
@@ -169,6 +169,11 @@ def _polygons(kind: str, data: bytes) -> Polygons | Cloud:
             raise UnreadableError(why)
         return polygons
     raise UnreadableError(f"{why}; it holds {inside}")
+
+
+def _few(polygons: Polygons) -> tuple[str, ...]:
+    few = int(np.count_nonzero(polygons.counts < 3))
+    return (f"{few} of {len(polygons.counts)} polygons left out: fewer than three corners",) if few else ()
 
 
 def sound(vertices: Floats, faces: Ints, parts: Parts | None = None) -> tuple[Mesh, tuple[str, ...]]:

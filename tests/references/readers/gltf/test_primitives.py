@@ -175,13 +175,30 @@ ENDS = {"min": CUBE.min(axis=0).tolist(), "max": CUBE.max(axis=0).tolist()}
         (ENDS, False),
         (ENDS | {"max": (np.array(ENDS["max"]) * 1.001).tolist()}, False),
         (ENDS | {"max": (np.array(ENDS["min"]) * 0.5).tolist()}, True),
+        (ENDS | {"max": (np.array(ENDS["max"]) * 1.5).tolist()}, True),
         (ENDS | {"max": "far"}, False),
         ({"min": [0], "max": [1]}, False),
     ],
 )
-def test_positions_outside_of_what_the_file_says_of_them_are_noted(tmp_path, ends, noted):
+def test_positions_elsewhere_than_the_file_says_are_noted(tmp_path, ends, noted):
     gltf = Gltf()
     indices = gltf.array(CUBE_FACES.reshape(-1), "u2")
     primitive = {"attributes": {"POSITION": gltf.array(CUBE, **ends)}, "indices": indices}
     _, notes = read(written(tmp_path, gltf.shown(gltf.mesh(primitive))))
-    assert notes == (("1 x mesh with positions outside of what the file says of them",) if noted else ())
+    assert notes == (("1 x mesh with positions elsewhere than the file says of them",) if noted else ())
+
+
+@pytest.mark.parametrize(
+    ("row", "by", "noted"), [("accessors", 0, False), ("accessors", 1, True), ("bufferViews", 1, True)]
+)
+def test_positions_that_begin_within_a_number_are_noted(tmp_path, row, by, noted):
+    gltf = Gltf()
+    view = gltf.view(np.ascontiguousarray(CUBE, "<f4").tobytes() + bytes(4))
+    positions = gltf.accessor(len(CUBE), "VEC3", "f4", bufferView=view)
+    indices = gltf.array(CUBE_FACES.reshape(-1), "u2")
+    scene = gltf.shown(gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices}))
+    scene.document[row][0]["byteOffset"] = by
+    if row == "bufferViews":
+        scene.document[row][0]["byteLength"] = 12 * len(CUBE)
+    _, notes = read(written(tmp_path, scene))
+    assert notes == (("1 x mesh whose positions or indices begin within a number",) if noted else ())

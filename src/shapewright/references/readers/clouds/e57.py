@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,8 @@ from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.clouds.cloud import Cloud, refuse_count
 from shapewright.shapes import Floats
 
+_CODE = re.compile(r" ?\(Error\w+\)")
+"""Behind the words of a message of libE57Format."""
 _METRE = 1.0  # the unit of the format
 _HEADER, _SIZE_AT = 48, 16  # bytes of the header, and where in it the length of the file stands
 
@@ -33,15 +36,19 @@ def read_e57(path: Path, data: bytes) -> Cloud:
     positions: list[Floats] = []
     sensors: list[Floats] = []
     declared = 0
-    with pye57.E57(str(path)) as file:
-        refuse_count(sum(file.get_header(i).point_count for i in range(file.scan_count)), len(data))
-        for i in range(file.scan_count):
-            header, found = file.get_header(i), _scan(file, i)
-            declared += header.point_count
-            positions.append(found)
-            # Without a pose the points may have been merged: nobody knows where the scanner stood.
-            place = header.translation if header.has_pose() else [np.nan] * 3
-            sensors.append(np.broadcast_to(np.asarray(place, dtype=np.float64), found.shape))
+    try:
+        with pye57.E57(str(path)) as file:
+            refuse_count(sum(file.get_header(i).point_count for i in range(file.scan_count)), len(data))
+            for i in range(file.scan_count):
+                header, found = file.get_header(i), _scan(file, i)
+                declared += header.point_count
+                positions.append(found)
+                # Without a pose the points may have been merged: nobody knows where the scanner stood.
+                place = header.translation if header.has_pose() else [np.nan] * 3
+                sensors.append(np.broadcast_to(np.asarray(place, dtype=np.float64), found.shape))
+    except pye57.libe57.E57Exception as error:
+        said = str(error).partition("\n")[0]  # what follows are lines of its source
+        raise UnreadableError(f"broken: {_CODE.sub('', said)}") from error
     if not positions:
         raise UnreadableError("it holds no scans")
     invalid = declared - sum(len(found) for found in positions)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.gltf.buffers import Views
-from shapewright.references.readers.gltf.document import Accessor, Document, Sparse, at
+from shapewright.references.readers.gltf.document import Accessor, BufferView, Document, Sparse, at
 from shapewright.shapes import Floats, Ints
 
 Array = NDArray[Any]
@@ -32,11 +32,15 @@ class Accessors:
 
     Attributes:
         described: the document's accessors.
+        views: the document's buffer views.
         stored: the array of an accessor (count, width), as it is stored; read-only. Raises UnreadableError.
+        bounds: the least and the greatest values (2, width) of an accessor; (0, width) where it is empty.
     """
 
     described: list[Accessor]
+    views: list[BufferView]
     stored: Callable[[int], Array]
+    bounds: Callable[[int], Floats]
 
     def floats(self, index: int, width: int, rows: Ints | slice = slice(None)) -> Floats:
         """Elements of an accessor (N, width) as what they stand for. Raises UnreadableError for another width."""
@@ -53,20 +57,29 @@ class Accessors:
                                   f"type {self.described[index].component_type}")  # fmt: skip
         return array
 
-    def lie_outside(self, index: int, values: Floats) -> bool:
-        """Whether values (N, width) lie beyond what the accessor says of its least and its greatest; by 1 %, not less.
+    def lie_elsewhere(self, index: int) -> bool:
+        """Whether the least and the greatest values of an accessor are others than it says; by 1 %, not less.
 
         Some programs round them.
         """
-        accessor = at(self.described, index, "accessor")
+        accessor, found = at(self.described, index, "accessor"), self.bounds(index)
         try:
             ends = np.array([accessor.min, accessor.max], dtype=np.float64)
         except (TypeError, ValueError):
             return False
-        if ends.shape != (2, values.shape[1]) or accessor.normalized or not np.isfinite(ends).all():
+        if ends.shape != found.shape or accessor.normalized or not np.isfinite(ends).all():
             return False
         slack = _ROUNDED * max(float(np.ptp(ends, axis=0).max()), float(np.abs(ends).max()))
-        return bool(((values < ends[0] - slack) | (values > ends[1] + slack)).any())
+        return not bool((np.abs(found - ends) <= slack).all())
+
+    def begins_within_a_number(self, index: int) -> bool:
+        """Whether an accessor begins where none can: at a byte that is no multiple of the size of its numbers."""
+        accessor = at(self.described, index, "accessor")
+        if accessor.buffer_view is None:
+            return False
+        view = at(self.views, accessor.buffer_view, "buffer view")
+        begin = accessor.byte_offset + (0 if view.extensions else view.byte_offset)
+        return begin % np.dtype(_COMPONENTS[accessor.component_type]).itemsize > 0
 
     def has_data(self, index: int) -> bool:
         """Whether an accessor has data of its own: others are zeros."""
@@ -102,7 +115,13 @@ def accessors(document: Document, views: Views) -> Accessors:
             array = _array(views(accessor.buffer_view), accessor.byte_offset, accessor.count, width, kind, stride)
         return array if accessor.sparse is None else _replaced(array, accessor.sparse, views)
 
-    return Accessors(document.accessors, stored)
+    @cache
+    def bounds(index: int) -> Floats:
+        array = stored(index)
+        with np.errstate(invalid="ignore"):
+            return np.array([array.min(axis=0), array.max(axis=0)] if len(array) else array, dtype=np.float64)
+
+    return Accessors(document.accessors, document.buffer_views, stored, bounds)
 
 
 def _array(data: memoryview, offset: int, count: int, width: int, kind: str, stride: int | None = None) -> Array:

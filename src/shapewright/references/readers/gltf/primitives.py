@@ -37,7 +37,8 @@ class Geometry:
         joints: (V, J), of a skin; J is 0 where no joints move the vertices.
         weights: (V, J), how much each joint does.
         spare: corners at the end that are no whole triangle.
-        outside: whether the file says of its positions that they lie elsewhere.
+        elsewhere: whether the file says of its positions that they lie elsewhere.
+        within: whether its positions or indices begin where no number can.
     """
 
     vertices: Floats
@@ -45,7 +46,8 @@ class Geometry:
     joints: Ints
     weights: Floats
     spare: int = 0
-    outside: bool = False
+    elsewhere: bool = False
+    within: bool = False
 
 
 def has_triangles(primitive: Primitive) -> bool:
@@ -99,12 +101,14 @@ def geometry(primitive: Primitive, morph: Sequence[float], accessors: Accessors,
         return real
 
     vertices = values(_POSITION, position, 3)
-    outside = decoded is None and accessors.lie_outside(position, vertices)
+    elsewhere = decoded is None and accessors.lie_elsewhere(position)
+    read = () if decoded else (position,) if primitive.indices is None else (position, primitive.indices)
+    within = any(accessors.begins_within_a_number(index) for index in read)
     for target, weight in zip(primitive.targets, morph, strict=False):
         if weight and _POSITION in target:
             vertices += weight * values("a morph target", target[_POSITION], 3)
     joints, weights = _influences(primitive, values)
-    return Geometry(vertices, faces, joints, weights, spare, outside)
+    return Geometry(vertices, faces, joints, weights, spare, elsewhere, within)
 
 
 def _refuse_missing(primitive: Primitive, accessors: Accessors) -> None:

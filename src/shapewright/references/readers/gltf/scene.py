@@ -78,12 +78,14 @@ def read_gltf(path: Path, data: bytes) -> Scene:
             for p in shown
         ]
 
-    pieces, names, spare, outside = list[Piece](), list[tuple[PartName, int]](), 0, 0
+    pieces, names, spare = list[Piece](), list[tuple[PartName, int]](), 0
+    elsewhere = within = 0
     for matrices, node, name in copies:
         joints = None if node.skin is None else joints_of(node.skin)
         for part, called in geometries(*_mesh(document, node)):
             spare += part.spare * len(matrices)
-            outside += part.outside
+            elsewhere += part.elsewhere
+            within += part.within
             if joints is not None and part.joints.size:
                 pieces.append((posed(part, joints), part.faces))
             else:
@@ -95,7 +97,8 @@ def read_gltf(path: Path, data: bytes) -> Scene:
         raise UnreadableError("no triangles, only points or lines")
     notes = [f"{others} x primitive left out: points, lines, or without positions"] if others else []
     notes += [f"{spare} x corner left out: no whole triangle"] if spare else []
-    notes += [f"{outside} x mesh with positions outside of what the file says of them"] if outside else []
+    notes += [f"{elsewhere} x mesh with positions elsewhere than the file says of them"] if elsewhere else []
+    notes += [f"{within} x mesh whose positions or indices begin within a number"] if within else []
     notes = [*container.notes, *unknown, *shown.notes, *notes]
     return Scene(vertices, faces, tuple(notes), unit=1.0, up="y", parts=Parts.of(names))
 
