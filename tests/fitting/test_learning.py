@@ -50,6 +50,8 @@ def test_where_references_are_points_a_share_of_the_samples_is_scanned(of_meshes
     assert 0.5 < np.mean(scans) < 0.95
     assert of_points.training.parameters == of_meshes.training.parameters
     assert any(isinstance(shape, Points) for shape in of_points.held_out.shapes)
+    scalars = len(block.space)
+    assert of_points.budget(SETTINGS).evaluations(scalars) > of_meshes.budget(SETTINGS).evaluations(scalars)
 
 
 def test_a_predictor_of_points_predicts_scans():

@@ -28,7 +28,7 @@ from shapewright.prediction.views.silhouettes import redrawn, view_dataset
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.rendering.cameras import ANYWHERE, PAGE, Camera, starting_views
-from shapewright.search.budgets import Budget, whole
+from shapewright.search.budgets import Budget, Sought, whole
 from shapewright.settings import Searching, Settings
 from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape, Shape, extent_of
 
@@ -48,10 +48,18 @@ class Lesson:
     def budget(self, settings: Searching) -> Budget:
         """How long to refine: what the settings say, or less where a shape takes long to build."""
         thorough = settings.refine == "thorough"
-        budget = whole(self.training.kind is Drawing, self.training.cameras == (ANYWHERE,), thorough)
+        budget = whole(self._sought, thorough)
         seconds = 10.0 * settings.refine_seconds if thorough else settings.refine_seconds
         evaluations = settings.refine_shapes or seconds / max(self.facts["build_seconds"], 1e-6)
         return budget.within(evaluations, int(self.predictor.space.scalars.sum()))
+
+    @property
+    def _sought(self) -> Sought:
+        if self.training.kind is Drawing:
+            return "drawings"
+        if self.training.cameras == (ANYWHERE,):
+            return "views"
+        return "scans" if _has_points(self.training.shapes) else "meshes"
 
 
 def train(procedure: Procedure, settings: Settings | None = None, progress: Listener | None = None) -> Predictor:
@@ -101,7 +109,7 @@ def learn(
     parts = [data.take(rows) for rows in split(len(data), settings.seed)]
     if settings.augment:
         parts[0] = augmented(parts[0], settings.seed, settings.workers)
-    if start and _has_points(reference.shape for reference in start.references):
+    if start and start.references.has_points:
         parts = [scanned(part, settings.seed + number, settings.workers) for number, part in enumerate(parts)]
     failed = [build for build in builds if build.failure]
     facts = {

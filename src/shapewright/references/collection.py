@@ -21,7 +21,7 @@ from shapewright.references.reference import Reference, normalised
 from shapewright.references.scans.steps import Kept, kept
 from shapewright.references.standing import AUTO, stood, told
 from shapewright.references.views import Pictures, as_views, joined
-from shapewright.shapes import Drawing, Mesh, Views
+from shapewright.shapes import Drawing, Mesh, Points, Views
 from shapewright.shapes.conversion import as_reference
 from shapewright.storage import printable
 
@@ -203,6 +203,11 @@ class Collection:
     def in_views(self) -> bool:
         """Whether the references are objects in pictures, see ``Views``."""
         return isinstance(self.references[0].shape, Views)
+
+    @property
+    def has_points(self) -> bool:
+        """Whether any reference is points."""
+        return any(isinstance(reference.shape, Points) for reference in self.references)
 
     @property
     def names(self) -> tuple[str, ...]:

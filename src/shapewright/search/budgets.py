@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -82,6 +83,17 @@ THOROUGH = Budget(
 )
 
 
+# What a scan does not show makes a network less sure of choices, so other choices get a turn of their own. Chosen on
+# scans of 140 shapes of four categories (docs/benchmarks.md, "Scans").
+SCANNED = Budget(
+    (
+        *(Scan(12), Probe(4), Step(3, scatter=2), *_exactly(0.05)),
+        *(*_OTHERS, *_exactly(0.04)),
+        *(Step(1, scatter=4, near=1.4),) * 8,
+    )
+)
+
+
 def _followed(combinations: int, turns: int = 1, size: float = 0.04) -> tuple[Move, ...]:
     """New models and three steps along them, some times."""
     return (Probe(combinations, size, again=True), Step(combinations, 3)) * turns
@@ -146,10 +158,17 @@ VIEWED_THOROUGH = Budget(
 )
 
 
-def whole(drawn: bool, in_views: bool, thorough: bool) -> Budget:
-    """The budget of a procedure that draws, of references that are pictures of objects, or of meshes."""
-    if drawn:
-        return DRAWN_THOROUGH if thorough else DRAWN
-    if in_views:
-        return VIEWED_THOROUGH if thorough else VIEWED
+Sought: TypeAlias = Literal["meshes", "scans", "views", "drawings"]
+"""What a search is for: references that are meshes, points, or pictures of objects; or a procedure that draws."""
+
+
+def whole(sought: Sought, thorough: bool) -> Budget:
+    """The budget where no time is short."""
+    match sought:
+        case "drawings":
+            return DRAWN_THOROUGH if thorough else DRAWN
+        case "views":
+            return VIEWED_THOROUGH if thorough else VIEWED
+        case "scans":
+            return THOROUGH if thorough else SCANNED
     return THOROUGH if thorough else QUICK

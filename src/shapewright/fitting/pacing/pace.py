@@ -14,7 +14,7 @@ from shapewright.fitting.pacing.stock import PROBES, Stock
 from shapewright.fitting.start import Start
 from shapewright.parameters import ParameterSpace
 from shapewright.progress import Notice, Stages
-from shapewright.search.budgets import whole
+from shapewright.search.budgets import Sought, whole
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing
 
@@ -79,10 +79,17 @@ def _work(
     references = len(start.references) if start else 0
     replicas = references * (2 + (4 if settings.facing == "found" else 0))
     rounds = settings.rounds * (settings.round_samples + 2 * references)
-    drawn = any(isinstance(build.shape, Drawing) for build in builds)
-    budget = whole(drawn, start is not None and start.references.in_views, settings.refine == "thorough")
+    budget = whole(_sought(builds, start), settings.refine == "thorough")
     search = 0 if settings.refine == "off" or not references else budget.evaluations(int(space.scalars.sum()))
     return Work(samples, references, _TRIED * len(space) + replicas + rounds, search)
+
+
+def _sought(builds: Sequence[Build], start: Start | None) -> Sought:
+    if any(isinstance(build.shape, Drawing) for build in builds):
+        return "drawings"
+    if start and start.references.in_views:
+        return "views"
+    return "scans" if start and start.references.has_points else "meshes"
 
 
 def _wait(seconds: float, samples: int, cores: int) -> Notice:
