@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal, TypeAlias
 
 import typer
 from rich.markup import escape
@@ -16,20 +18,45 @@ from shapewright.procedures import load_procedure
 from shapewright.runs.folder import RunError, check_writable, next_run
 from shapewright.settings import Settings
 
+Kind: TypeAlias = Literal["python", "cadquery", "build123d", "openscad", "blender", "drawing"]
+NEEDED: Mapping[Kind, str] = {
+    "cadquery": "cadquery",
+    "build123d": "build123d",
+    "openscad": "openscad_evaluator",
+    "blender": "bpy",
+}
+"""The module that a kind of procedure needs; the extra that installs it has the name of the kind."""
 
-def new(name: Annotated[Path, typer.Argument(help="The folder to make.")]) -> None:
+
+def new(
+    name: Annotated[Path, typer.Argument(help="The folder to make.")],
+    kind: Annotated[Kind, typer.Option(help="What the first procedure is written with.")] = "python",
+) -> None:
     """Start a project: a folder with a first procedure and a place for references."""
     from shapewright.references.readers.formats import MESH_FORMATS
 
     if name.exists():
         raise RunError(f"{name}: exists already; name another folder")
+    page = f"procedure{'.scad' if kind == 'openscad' else '.py'}"
     (name / "references").mkdir(parents=True)
-    shutil.copyfile(Path(__file__).parent / "starters" / "python.py", name / "procedure.py")
-    out.print(f"made {escape(str(name))}/procedure.py and {escape(str(name))}/references/", highlight=False)
-    out.print(f"\nPut meshes ({', '.join(MESH_FORMATS)}) into references, then:\n")
+    shutil.copyfile(starter(kind), name / page)
     place = escape(str(name))
-    out.print(f"  shapewright studio {place}\n\nor, without a browser:\n", highlight=False)
-    out.print(f"  cd {place}\n  shapewright fit procedure.py references", highlight=False)
+    out.print(f"made {place}/{page} and {place}/references/", highlight=False, soft_wrap=True)
+    if kind in NEEDED and not find_spec(NEEDED[kind]):
+        out.print(
+            f"\nIt needs a library that is not installed here:\n\n  pip install 'shapewright\\[{kind}]'",
+            highlight=False,
+        )
+    formats = "drawings (SVG, pictures)" if kind == "drawing" else f"meshes ({', '.join(MESH_FORMATS)})"
+    out.print(f"\nPut {formats} into references, then:\n")
+    option = "" if page == "procedure.py" else f" --procedure {page}"
+    out.print(f"  shapewright studio {place}{option}\n\nor, without a browser:\n", highlight=False)
+    out.print(f"  cd {place}\n  shapewright fit {page} references", highlight=False)
+
+
+def starter(kind: Kind) -> Path:
+    """The file that a new project of this kind gets a copy of."""
+    return Path(__file__).parent / "starters" / f"{kind}_page{'.scad' if kind == 'openscad' else '.py'}"
 
 
 def demo(

@@ -42,6 +42,8 @@ _READERS: Mapping[str, Callable[[Path, str | None], Procedure]] = {".scad": _ope
 """What makes a procedure of a file that is no Python, by its suffix. It is given the file, and the name that is asked
 for: for a file with one procedure it becomes the procedure's name. It imports what it needs when it is called."""
 _NAMED = re.compile(rf"(.*({'|'.join(map(re.escape, ['.py', *sorted(FOREIGN)]))})):(.+)", re.IGNORECASE | re.DOTALL)
+EXTRAS: Mapping[str, str] = {"cadquery": "cadquery", "build123d": "build123d", "bpy": "blender"}
+"""The extra that installs a module which authors import."""
 _HELPERS = "__shapewright_helpers__"
 """The name under which an executed file has the files that it imported from its own folder."""
 
@@ -156,7 +158,7 @@ def executed(path: Path) -> ModuleType:
         place = Place(error.filename or str(path), error.lineno, (error.text or "").strip() or None)
         raise ProcedureError(error.msg, place) from error
     except Exception as error:
-        raise ProcedureError(describe(error) + _hidden_helper(error, path.parent), place_of(error, path)) from error
+        raise ProcedureError(describe(error) + _advice(error, path.parent), place_of(error, path)) from error
     except SystemExit as error:
         raise ProcedureError(f"{path}: the file ended the program (sys.exit) while it was read") from error
     finally:
@@ -178,9 +180,11 @@ def _behind_standard_library() -> int:
     return max((i + 1 for i, folder in enumerate(sys.path) if folder in own), default=0)
 
 
-def _hidden_helper(error: Exception, folder: Path) -> str:
-    """What an import of the author's own file means that has the name of one of Python's modules."""
+def _advice(error: Exception, folder: Path) -> str:
+    """What to do about an import: of an extra's library, or of a file that has the name of one of Python's modules."""
     name = error.name.partition(".")[0] if isinstance(error, ImportError) and error.name else ""
+    if isinstance(error, ModuleNotFoundError) and name in EXTRAS:
+        return f"; pip install 'shapewright[{EXTRAS[name]}]'"
     hidden = name in sys.stdlib_module_names and (folder / f"{name}.py").is_file()
     return f"; {folder / name}.py has the name of one of Python's modules: rename it" if hidden else ""
 
