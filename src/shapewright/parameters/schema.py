@@ -23,15 +23,20 @@ def schema_of(parameters: Iterable[Parameter]) -> dict[str, Any]:
 
 
 def condition_text(condition: Condition) -> str:
-    """The expression of a lambda as the author wrote it, or a function's name; "..." where it is not on one line."""
+    """The expression of a lambda as the author wrote it, or a function's name; "..." where it is not on one line.
+
+    A condition with an attribute ``text`` has that text.
+    """
+    if isinstance(text := getattr(condition, "text", None), str):
+        return text
     code: CodeType | None = getattr(condition, "__code__", None)
     if code is None or code.co_name != "<lambda>":
         return code.co_name if code else "..."
     places = [place for place in code.co_positions() if place[2] != place[3]]  # others are of no text
     if len({line for first, last, *_ in places for line in (first, last)}) != 1:
         return "..."
-    text = linecache.getline(code.co_filename, places[0][0] or 0).encode()  # columns count bytes
-    return text[min(place[2] or 0 for place in places) : max(place[3] or 0 for place in places)].decode() or "..."
+    line = linecache.getline(code.co_filename, places[0][0] or 0).encode()  # columns count bytes
+    return line[min(place[2] or 0 for place in places) : max(place[3] or 0 for place in places)].decode() or "..."
 
 
 def _property(parameter: Parameter) -> dict[str, Any]:

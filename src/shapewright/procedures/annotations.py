@@ -15,6 +15,7 @@ import numpy as np
 
 from shapewright.parameters import Binary, Choice, Parameter, Range, Scalar, Seed, Value, When, whole_number
 from shapewright.parameters.kinds import Condition
+from shapewright.parameters.schema import condition_text
 from shapewright.procedures.bindings import NONE, Binding, Given, Group, Member, Plain
 
 _AXES = "xyzw"
@@ -207,6 +208,11 @@ class _Both:
 
     other: Condition | None
     flag: str
+
+    @property
+    def text(self) -> str:
+        """For ``condition_text``."""
+        return f"p.{self.flag}" if self.other is None else f"p.{self.flag} and ({condition_text(self.other)})"
 
     def __call__(self, values: Any) -> bool:
         given = functools.reduce(getattr, self.flag.split("."), values)
