@@ -18,6 +18,7 @@ _OURS = {
     "meshio": "libraries.cells",
     "open3d": "libraries.viewers",
     "pyvista": "libraries.viewers",
+    "scene_synthesizer": "libraries.scenes",
     "shapely": "polygons",
     "shapewright": "libraries.own",
     "trimesh": "libraries.trimesh",

@@ -27,7 +27,7 @@ def convert(value: Any) -> Any:
     if hasattr(value, "graph") and hasattr(value, "geometry"):
         return _parts_of(value)
     if hasattr(value, "faces") and hasattr(value, "vertices"):
-        return Part(_mesh(value), _named(value.metadata.get("name")))
+        return Part(_mesh(value), named(value.metadata.get("name")))
     if hasattr(value, "polygons_closed"):
         if not len(closed := [each for each in value.polygons_closed if each is not None]):
             raise refusal(value, "none of its outlines is closed; close them, or draw lines with a width")
@@ -53,10 +53,11 @@ def _nodes(scene: Any) -> Iterator[Part]:
         mesh = _mesh(geometry).transformed(matrix)
         if np.linalg.det(matrix[:3, :3]) < 0.0:
             mesh = replace(mesh, faces=mesh.faces[:, ::-1])
-        yield Part(mesh, _named(str(node)))
+        yield Part(mesh, named(str(node)))
 
 
-def _named(name: Any) -> str | None:
+def named(name: Any) -> str | None:
+    """The name of a part; None where trimesh made it up."""
     return name if isinstance(name, str) and name and not _NO_NAME.fullmatch(name) else None
 
 
