@@ -12,6 +12,7 @@ import queue
 import sys
 import threading
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import cloudpickle
 
@@ -46,7 +47,8 @@ class Workers:
     ) -> None:
         self.procedure = procedure
         self.count = count or cores()
-        self.limits = limits or Limits()
+        limits = limits or Limits()
+        self.limits = replace(limits, seconds=procedure.seconds) if procedure.seconds else limits
         self.costs: list[float] = []
         self._payload, self._shown = _payload(procedure), shown
         self._pool = Pool(lambda: WorkerProcess(self._payload, self.limits, shown), self.count)

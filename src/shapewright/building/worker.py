@@ -122,7 +122,7 @@ def build(procedure: Procedure, parameters: Parameters, limits: Limits) -> Build
     except Infeasible as error:
         failure = Failure("infeasible", str(error) or "it is infeasible")
     except ProcedureError as error:
-        failure = Failure("crash" if error.kind == "crash" else "no shape", error.message, error.place)
+        failure = Failure("no shape" if error.kind == "broken" else error.kind, error.message, error.place)
     except MemoryError:
         failure = Failure.of(too_much(limits))
     except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever the author's code raises is a result

@@ -40,7 +40,9 @@ def seconds_of(text: str) -> float:
 
 ProcedureArgument = Annotated[
     Path,
-    typer.Argument(help="The Python file with the @procedure; file.py:name for one of several. Or an OpenSCAD file."),
+    typer.Argument(
+        help="The Python file with the @procedure; file.py:name for one of several. Or a .scad or spec.toml."
+    ),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object as the last line of standard output.")]
 PresetOption = Annotated[

@@ -7,7 +7,7 @@ from pathlib import Path
 
 BINARY = frozenset({".blend"})
 """Suffixes of files that have no text."""
-FOREIGN = frozenset({".scad"})
+FOREIGN = frozenset({".scad", ".toml"})
 """Suffixes of files that are procedures and no Python; ``loading`` knows what reads each."""
 
 

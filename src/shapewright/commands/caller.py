@@ -1,0 +1,69 @@
+"""The program that calls a function in another Python, which has no shapewright; see ``processes.resident``.
+
+It uses what Python 3.8 has, and nothing else. The first request says what is called; a further one has ``arguments``,
+and ``out``, an OBJ file to write. An answer has ``file``, the file that holds the shape, or ``error``.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import json
+import os
+import struct
+import sys
+import traceback
+from pathlib import Path
+from typing import Any
+
+HELLO = b"\0shapewright\0"
+
+
+def main() -> None:
+    """Answer requests until there are no more."""
+    requests, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what the function prints is no answer
+    answers.write(HELLO)
+    function = None
+    while head := requests.read(4):
+        request = json.loads(requests.read(struct.unpack(">I", head)[0]))
+        answer: dict[str, Any] = {"arrays": []}
+        try:
+            if function is None:
+                function = found(**request)
+            else:
+                answer["file"] = written(function(**request["arguments"]), request["out"])
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever it raises is an answer
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            answer["error"] = f"{type(error).__name__}: {error} ({place.filename}:{place.lineno})"
+        text = json.dumps(answer).encode()
+        answers.write(struct.pack(">I", len(text)) + text)
+        answers.flush()
+
+
+def found(target: str, home: str, environment: dict[str, str]) -> Any:
+    """The function ``module:name``; modules of the folder ``home`` are found, too."""
+    os.environ.update(environment)
+    sys.path[0] = home
+    module, _, name = target.partition(":")
+    return functools.reduce(getattr, name.split("."), importlib.import_module(module))
+
+
+def written(result: Any, out: str) -> str:
+    """The file of a shape: what exports itself, vertices and faces, or the path of a file that was written."""
+    if isinstance(result, str) or hasattr(result, "__fspath__"):
+        return str(Path(result).absolute())
+    if hasattr(result, "as_trimesh_scene"):
+        result = result.as_trimesh_scene(use_collision_geometry=False)
+    if hasattr(result, "export"):
+        result.export(out)
+        return out
+    vertices, faces = (result.vertices, result.faces) if hasattr(result, "faces") else result
+    lines = ["v " + " ".join(str(float(x)) for x in vertex) for vertex in vertices]
+    lines += ["f " + " ".join(str(int(i) + 1) for i in face) for face in faces]
+    Path(out).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return out
+
+
+if __name__ == "__main__":
+    main()
