@@ -325,3 +325,30 @@ def test_a_seed_with_all_integers_takes_no_memory():
     made = one(Annotated[int, Range(0, 2**31 - 1)], 0)
     assert len({values["x"] for values in made.space.sample(50, 0)}) == 50
     assert all(isinstance(values["x"], int) for values in made.space.sample(50, 0))
+
+
+class Said:
+    documentation = "how wide"
+
+
+@pytest.mark.parametrize(
+    "annotation",
+    [
+        Annotated[float, sw.Range(1, 2), "how wide"],
+        Annotated[float, "how wide", sw.Range(1, 2)],
+        Annotated[float, sw.Range(1, 2), Said()],
+        Annotated[bool, "how wide"],
+        Annotated[tuple[Length, Length], "how wide"],
+        tuple[Annotated[Length, "how wide"], Annotated[Length, "how wide"]],
+        Annotated[float | None, sw.Range(1, 2), "how wide"],
+    ],
+    ids=str,
+)
+def test_what_an_annotation_says_in_words_is_kept_for_its_parameters(annotation):
+    made = one(annotation, (1.5, 1.5) if "tuple" in str(annotation) else None if "None" in str(annotation) else 1.5)
+    names = [name for name in made.space.names if name not in ("w", "with_x")]
+    assert {name: made.signature.meanings[name] for name in names} == dict.fromkeys(names, "how wide")
+
+
+def test_nothing_is_said_where_no_annotation_has_words():
+    assert one(Length, 1.5).signature.meanings == {}

@@ -58,12 +58,17 @@ def describe(procedure: ProcedureArgument, json: Json = False) -> None:
     """Show the parameter space of a procedure; with --json as JSON Schema."""
     author = load_procedure(procedure)
     if json:
-        print_json({"title": author.name, **author.space.to_schema(), "x-fixed": list(author.signature.fixed)})
+        schema = author.space.to_schema()
+        for name, text in author.signature.meanings.items():
+            schema["properties"][name]["description"] = text
+        print_json({"title": author.name, **schema, "x-fixed": list(author.signature.fixed)})
     else:
-        table = Table("parameter", "kind", "values", "default", "when", box=None, pad_edge=False)
+        meanings = author.signature.meanings
+        columns = ("parameter", "kind", "values", "default", "when", *(("meaning",) if meanings else ()))
+        table = Table(*columns, box=None, pad_edge=False)
         for name, entry in author.space.to_schema()["properties"].items():
             cells = (name, entry.get("type", "choice"), _values(entry), str(entry["default"]), entry.get("x-when", ""))
-            table.add_row(*map(escape, cells))
+            table.add_row(*map(escape, (*cells, meanings.get(name, ""))[: len(columns)]))
         out.print(table)
         if author.signature.fixed:
             out.print(f"left at their defaults, since they have no Range: {', '.join(author.signature.fixed)}")

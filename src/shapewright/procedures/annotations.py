@@ -6,7 +6,7 @@ import dataclasses
 import functools
 import types
 import typing
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
@@ -38,11 +38,13 @@ class Argument:
         name: of the argument.
         parameters: of the space, that it is made of.
         binding: makes it of their values; None where it stays at its default.
+        meanings: what is said of parameters, by name.
     """
 
     name: str
     parameters: tuple[Parameter, ...] = ()
     binding: Binding | None = None
+    meanings: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -54,18 +56,26 @@ class _Hint:
         limits: its Range.
         when: when it matters.
         chance: whether it is a seed.
+        meaning: what it says in words: a string, a Doc, or the description of pydantic's Field; empty without one.
     """
 
     kind: Any
     limits: Range | None
     when: Condition | None
     chance: bool
+    meaning: str
 
 
 def read(name: str, hint: Any, default: Any, missing: bool) -> Argument:
     """An argument by its annotation. missing: whether it has no default. Raises SignatureError, ValueError."""
     one = _taken_apart(hint)
-    default = _plain(default)
+    argument = _read(name, one, _plain(default), missing)
+    if not one.meaning:
+        return argument
+    return replace(argument, meanings={**{p.name: one.meaning for p in argument.parameters}, **argument.meanings})
+
+
+def _read(name: str, one: _Hint, default: Any, missing: bool) -> Argument:
     if one.chance:
         if missing:
             raise SignatureError(f"parameter {name!r} is a Seed and needs a default, such as 0")
@@ -110,7 +120,14 @@ def _taken_apart(hint: Any) -> _Hint:
     limits = next((extra for extra in extras if isinstance(extra, Range)), None) or _bounds(extras)
     when = next((extra.condition for extra in extras if isinstance(extra, When)), limits.when if limits else None)
     chance = hint is Seed or any(extra is Seed or isinstance(extra, Seed) for extra in extras)
-    return _Hint(hint, limits, when, chance)
+    said = (extra if isinstance(extra, str) else _said(extra) for extra in extras)
+    return _Hint(hint, limits, when, chance, next((text for text in said if text), ""))
+
+
+def _said(extra: Any) -> str:
+    """What the annotations of others say in words."""
+    texts = (getattr(extra, name, None) for name in ("documentation", "description"))
+    return next((text for text in texts if isinstance(text, str)), "")
 
 
 def _bounds(extras: Sequence[Any]) -> Range | None:
@@ -199,7 +216,8 @@ def _optional(name: str, hint: _Hint, default: Any, missing: bool) -> Argument:
     if not one.binding:
         return one
     parameters = tuple(replace(p, when=_Both(p.when, flag)) for p in one.parameters)
-    return Argument(name, (Binary(flag, not (missing or none), hint.when), *parameters), Given(flag, one.binding))
+    given = Given(flag, one.binding)
+    return Argument(name, (Binary(flag, not (missing or none), hint.when), *parameters), given, one.meanings)
 
 
 @dataclass(frozen=True)
@@ -270,4 +288,5 @@ def _grouped(
     bindings = tuple(one.binding for one in inner if one.binding)
     if not bindings or (keywords is None and len(bindings) < len(inner)):
         raise SignatureError(f"parameter {name!r} needs a Range for each of its values")
-    return Argument(name, tuple(p for one in inner for p in one.parameters), Group(make, bindings, keywords))
+    meanings = {key: text for one in inner for key, text in one.meanings.items()}
+    return Argument(name, tuple(p for one in inner for p in one.parameters), Group(make, bindings, keywords), meanings)

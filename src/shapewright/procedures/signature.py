@@ -33,12 +33,14 @@ class Signature:
         bindings: for each argument that the space is about what it gets, by its name.
         fixed: names of the arguments that stay at their defaults: they have no Range.
         positional: names of those that stand before a ``/``.
+        meanings: what is said of parameters in words, by name.
     """
 
     space: ParameterSpace
     bindings: Mapping[str, Binding]
     fixed: tuple[str, ...] = ()
     positional: tuple[str, ...] = ()
+    meanings: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
     def call(self, function: Callable[..., Any], args: Sequence[Any], given: Mapping[str, Any]) -> Any:
         """Call the function with values of the space, or with its own arguments; what is left out is at its default."""
@@ -107,7 +109,8 @@ def _signature(arguments: Sequence[Argument], items: Sequence[inspect.Parameter]
         raise SignatureError(f"two parameters are called {', '.join(sorted(twice))}")
     before = tuple(item.name for item in items if item.kind is item.POSITIONAL_ONLY and item.name not in fixed)
     bindings = {argument.name: argument.binding for argument in known if argument.binding}
-    return Signature(space, bindings, fixed, before)
+    meanings = {name: text for argument in known for name, text in argument.meanings.items()}
+    return Signature(space, bindings, fixed, before, meanings)
 
 
 def _argument(item: inspect.Parameter, hint: Any, bound: bool) -> Iterator[Argument]:

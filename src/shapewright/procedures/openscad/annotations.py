@@ -81,6 +81,8 @@ def _options(inside: str, value: Plain) -> tuple[Any, str]:
         if match.end() == match.start():
             continue
         text = (match[2] if match[1] is None else match[1]) or ""
+        if not text and match[1] is None:
+            continue
         if isinstance(value, str):
             found.append(text)
         elif re.fullmatch(NUMBER, text):
@@ -89,8 +91,8 @@ def _options(inside: str, value: Plain) -> tuple[Any, str]:
             strange.append(text)
         if match[3] and match[3].strip() != text:
             labels.append(f"{text}: {match[3].strip()}")
-    if strange and not found:
-        return None, ""  # a remark, such as [mm]
+    if not found or (isinstance(value, str) and len(found) < 2):
+        return None, ""  # a remark, such as [mm], or what other customizers know, such as [image_surface:100x100]
     if strange:
         raise ValueError(f"[{inside}] is for a number, and {strange[0]!r} is none")
     if len(found) < 2:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import keyword
+import re
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,13 +16,18 @@ from shapewright.procedures.annotations import SignatureError
 from shapewright.procedures.annotations import read as read_argument
 from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.facts import Facts
+from shapewright.procedures.openscad.binary import built
 from shapewright.procedures.openscad.customizer import AnnotationError, Setting, settings
+from shapewright.procedures.openscad.messages import place
 from shapewright.procedures.openscad.text import Text
 from shapewright.procedures.places import Place
 from shapewright.procedures.procedure import Procedure
+from shapewright.procedures.texts import source_digest
 
-FACTS = Facts(up="z", unit="mm")
-"""OpenSCAD has no unit of its own; what reads its files takes millimetres."""
+FACTS: Mapping[str, Any] = {"up": "z", "unit": "mm"}
+"""OpenSCAD has no unit of its own; what reads its files takes millimetres. A line of the file may say others."""
+_FACTS = re.compile(r"\s*shapewright:(.*)")
+_PACKAGE, _PROGRAM = "openscad_evaluator", "openscad"
 _SHOWN = 3
 
 
@@ -34,12 +40,14 @@ class Model:
         name: of the procedure.
         arguments: its parameters; those without annotation are held.
         variables: the variable of each parameter whose name is none in Python.
+        stamp: changes when the file does, or one that it uses.
     """
 
     file: Path
     name: str
     arguments: inspect.Signature
     variables: Mapping[str, str]
+    stamp: str
 
     @property
     def __name__(self) -> str:
@@ -54,10 +62,22 @@ class Model:
         return Place(str(self.file), None)
 
     def __call__(self, **values: Any) -> Any:
-        """The shape at these values. Raises ProcedureError with the line of the file that is at fault."""
-        from shapewright.procedures.openscad.evaluation import evaluated
+        """The shape at these values, by the program ``openscad`` where the package is missing, or lacks something.
 
-        return evaluated(self.file, {self.variables.get(name, name): value for name, value in values.items()})
+        Raises Infeasible where an assertion fails, ProcedureError with the line of the file that is at fault.
+        """
+        named = {self.variables.get(name, name): value for name, value in values.items()}
+        program = shutil.which(_PROGRAM)
+        if find_spec(_PACKAGE) is None and program:
+            return built(program, self.file, named)
+        from shapewright.procedures.openscad.evaluation import Lacking, evaluated
+
+        try:
+            return evaluated(self.file, named, self.stamp)
+        except Lacking:
+            if program is None:
+                raise
+            return built(program, self.file, named)
 
 
 def read(path: Path, name: str | None) -> Procedure:
@@ -71,15 +91,18 @@ def read(path: Path, name: str | None) -> Procedure:
     except UnicodeDecodeError as error:
         raise ProcedureError(f"{path}: cannot be read as UTF-8 text: {error}") from error
     except AnnotationError as error:
-        raise ProcedureError(str(error), _place(path, error.line)) from error
+        raise ProcedureError(str(error), place(path, error.line)) from error
     if not any(setting.hint for setting in found):
-        raise ProcedureError(_no_space(found), _place(path, found[0].line) if found else Place(str(path), None))
-    _check_installed(path)
+        raise ProcedureError(_no_space(found), place(path, found[0].line) if found else Place(str(path), None))
     items = [_parameter(path, setting) for setting in found]
     variables = {item.name: setting.name for item, setting in zip(items, found, strict=True)}
     strange = {python: own for python, own in variables.items() if python != own}
-    made = Procedure(Model(path, name or path.stem, inspect.Signature(items), strange), facts=FACTS)
-    made.helpers = tuple(sorted(set(_used(path)) - {path}))
+    used = tuple(sorted(set(_used(path)) - {path}))
+    stamp = source_digest(repr([(file, file.read_bytes()) for file in (path, *used)]))
+    _check(path, stamp)
+    model = Model(path, name or path.stem, inspect.Signature(items), strange, stamp)
+    made = Procedure(model, facts=_facts(path, Text.of(text)))
+    made.helpers = used
     return made
 
 
@@ -92,10 +115,25 @@ def _parameter(path: Path, setting: Setting) -> inspect.Parameter:
             read_argument(name, setting.hint, setting.value, missing=False)
         except (ValueError, SignatureError) as error:
             message = str(error).replace("the default", "the value").replace("Range(", "its annotation (")
-            raise ProcedureError(message, _place(path, setting.line)) from error
+            raise ProcedureError(f"{message}; change one of the two", place(path, setting.line)) from error
         if setting.description:
             spelled = Annotated[spelled, setting.description]
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=setting.value, annotation=spelled)
+
+
+def _facts(path: Path, text: Text) -> Facts:
+    """Those of ``// shapewright: size=given``. Raises ProcedureError for others than there are."""
+    found = dict(FACTS)
+    for comment in text.comments:
+        if match := _FACTS.fullmatch(comment.text):
+            pairs = [part.split("=") for part in match[1].replace(",", " ").split()]
+            try:
+                found |= {name: value.strip("\"'") for name, value in pairs}
+                Facts(**found)
+            except (TypeError, ValueError) as error:
+                advice = "write for example: // shapewright: up=z, unit=mm, size=given"
+                raise ProcedureError(f"{error}; {advice}", place(path, text.line(comment.start))) from error
+    return Facts(**found)
 
 
 def _no_space(found: Sequence[Setting]) -> str:
@@ -105,13 +143,14 @@ def _no_space(found: Sequence[Setting]) -> str:
     return f"nothing in this file has an annotation that says which values it may have{held}; write one: {shown}"
 
 
-def _check_installed(path: Path) -> None:
-    if find_spec("openscad_evaluator") is None and shutil.which("openscad") is None:
+def _check(path: Path, stamp: str) -> None:
+    """Raises ProcedureError where nothing is installed that evaluates the file, or its syntax is wrong."""
+    if find_spec(_PACKAGE) is not None:
+        from shapewright.procedures.openscad.evaluation import parsed
+
+        parsed(path, stamp)
+    elif shutil.which(_PROGRAM) is None:
         raise ProcedureError(f"{path}: OpenSCAD files need an evaluator: pip install 'shapewright[openscad]'")
-
-
-def _place(path: Path, line: int) -> Place:
-    return Place(str(path), line, path.read_text("utf-8").splitlines()[line - 1].strip())
 
 
 def _used(path: Path, known: frozenset[Path] = frozenset()) -> Iterator[Path]:

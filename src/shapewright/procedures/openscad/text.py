@@ -61,7 +61,8 @@ class Text:
     @property
     def files(self) -> tuple[str, ...]:
         """What it includes, uses and imports, as it names it, each once."""
-        return tuple(dict.fromkeys(match[1] or match[2] for match in _FILE.finditer(self.code)))
+        named = (match for match in _FILE.finditer(self.code) if self.bare[match.start()].strip())
+        return tuple(dict.fromkeys(match[1] or match[2] for match in named))
 
 
 def _blank(text: str) -> str:
