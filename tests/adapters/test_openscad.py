@@ -15,6 +15,7 @@ from shapewright.runs.helpers import helpers_of, read_helpers, write_source
 pytest.importorskip("openscad_evaluator", reason="needs the extra openscad; run `make test-adapters`")
 
 CASE = Path(__file__).resolve().parents[3] / "shared" / "cases" / "generators" / "03-openscad-file" / "box_lid.scad"
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "generators"
 BOX = """
 use <lib/feet.scad>
 include <sizes.scad>
@@ -191,3 +192,19 @@ def test_a_file_in_the_manner_of_printables_is_fitted_as_it_is(tmp_path):
     write_samples(box_lid, 6, tmp_path / "parts", "stl", seed=1000)
     found = sw.fit(box_lid, sw.Collection.load(tmp_path / "parts"), sw.Settings(samples=300, epochs=8, workers=2))
     assert len(found.replicated) >= 4
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.scad")), ids=lambda path: path.stem)
+def test_an_example_builds_closed_shapes_of_the_size_that_it_says(path):
+    example = sw.load_procedure(path)
+    assert example.facts.stated == {"up": "z", "unit": "mm", "size": "given"}
+    assert len(example.space) >= 7 and not example.signature.fixed
+    made = [example(**example.space.defaults)]
+    for parameters in example.space.sample(6, seed=2):
+        try:
+            made.append(example(**parameters))
+        except sw.Infeasible:
+            continue
+    assert len(made) >= 5 and all(mesh.soundness().closed for mesh in made)
+    assert all(30 < mesh.extent.max() < 400 for mesh in made)
+    assert made[0].label_names
