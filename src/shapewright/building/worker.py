@@ -24,6 +24,8 @@ from shapewright.processes.worker import AT_WORK
 _ANSWER_WITHIN = 0.25
 """Share of the time limit after which a worker answers with the shapes it has, so that its parent notices a hang."""
 _READY = "ready"
+_OWN = tuple(sys.path)
+"""Where a new process looks for modules."""
 
 
 def serve(connection: Connection) -> None:
@@ -51,8 +53,25 @@ def serve(connection: Connection) -> None:
 
 
 def _received(payload: bytes) -> Procedure:
-    """The procedure. Raises ProcedureError when its file does not load, or a module that it needs is not found."""
-    sys.path[:], inner = pickle.loads(payload)
+    """The procedure. Raises ProcedureError when its file does not load, or a module that it needs is not found.
+
+    Its modules are looked for where its own process looks for them. Where that fails, this process's own places come
+    first: a library may change the search for its second import, as bpy does, so that no other process can import it.
+    """
+    theirs, inner = pickle.loads(payload)
+    sys.path[:] = theirs
+    try:
+        return _read(inner)
+    except ProcedureError as error:
+        sys.path[:] = [*_OWN, *(place for place in theirs if place not in _OWN)]
+        if not isinstance(error.__cause__, ImportError):
+            raise
+        with contextlib.suppress(ProcedureError):
+            return _read(inner)
+        raise
+
+
+def _read(inner: bytes) -> Procedure:
     try:
         target = pickle.loads(inner)
     except Exception as error:

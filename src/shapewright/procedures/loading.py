@@ -38,13 +38,23 @@ def _openscad(path: Path, name: str | None) -> Procedure:
     return read(path, name)
 
 
+def _blender(path: Path, name: str | None) -> Procedure:
+    from shapewright.procedures.blender.node_group import read
+
+    return read(path, name)
+
+
 def _command(path: Path, name: str | None) -> Procedure:
     # By its name: what programs write is read by the readers of references, which lie on a floor above this one.
     made: Procedure = importlib.import_module("shapewright.commands").read(path, name)
     return made
 
 
-_READERS: Mapping[str, Callable[[Path, str | None], Procedure]] = {".scad": _openscad, ".toml": _command}
+_READERS: Mapping[str, Callable[[Path, str | None], Procedure]] = {
+    ".blend": _blender,
+    ".scad": _openscad,
+    ".toml": _command,
+}
 """What makes a procedure of a file that is no Python, by its suffix. It is given the file, and the name that is asked
 for: for a file with one procedure it becomes the procedure's name. It imports what it needs when it is called."""
 _NAMED = re.compile(rf"(.*({'|'.join(map(re.escape, ['.py', *sorted(FOREIGN)]))})):(.+)", re.IGNORECASE | re.DOTALL)
@@ -58,8 +68,9 @@ def load_procedure(source: str | Path) -> Procedure:
     """The one procedure of a Python file, of a module that can be imported, or of a file of another program.
 
     source: a Python file in any folder, with its own imports; a file and the name of one of several (``file.py:name``);
-        a module and a name (``package.module:name``); an OpenSCAD file (``model.scad``); a spec of a command
-        (``spec.toml``). A name may also be that of a function without ``@procedure``.
+        a module and a name (``package.module:name``); an OpenSCAD file (``model.scad``); a geometry node group
+        (``model.blend:Group``); a spec of a command (``spec.toml``). A name may also be that of a function without
+        ``@procedure``.
 
     Of a file those that are defined in it count; if there are none, those that it imports or gets made elsewhere.
     Raises ProcedureError, pointing at the author's line, when the file is missing, fails, or has not one procedure.

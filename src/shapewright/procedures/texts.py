@@ -5,15 +5,15 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-BINARY = frozenset({".blend"})
-"""Suffixes of files that have no text."""
-FOREIGN = frozenset({".scad", ".toml"})
+FOREIGN = frozenset({".blend", ".scad", ".toml"})
 """Suffixes of files that are procedures and no Python; ``loading`` knows what reads each."""
+BINARY = frozenset({".blend"})
+"""Those of them that have no text."""
 
 
 def is_foreign(path: Path | None) -> bool:
     """Whether a procedure's file is no Python."""
-    return path is not None and path.suffix.lower() in FOREIGN | BINARY
+    return path is not None and path.suffix.lower() in FOREIGN
 
 
 def text_of(path: Path) -> str:

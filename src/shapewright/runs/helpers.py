@@ -21,7 +21,7 @@ def copy_in(run: Path, path: str | None = None) -> Path:
     """
     if path is not None:
         return run / f"{_COPY}{Path(path).suffix.lower() if is_foreign(Path(path)) else '.py'}"
-    there = (run / f"{_COPY}{suffix}" for suffix in sorted(FOREIGN | BINARY))
+    there = (run / f"{_COPY}{suffix}" for suffix in sorted(FOREIGN))
     return next((file for file in there if file.is_file()), run / f"{_COPY}.py")
 
 

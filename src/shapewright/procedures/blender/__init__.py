@@ -1,0 +1,1 @@
+"""Geometry nodes of Blender as procedures: sockets are parameters, and a Blender beside this process builds."""

@@ -1,0 +1,177 @@
+"""A geometry node group that is called as a function: a Blender beside this process evaluates it."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from shapewright.procedures.blender.installed import ADVICE, words
+from shapewright.procedures.blender.sockets import Socket, sockets_of
+from shapewright.procedures.errors import ProcedureError
+from shapewright.procedures.facts import Facts
+from shapewright.procedures.places import Place
+from shapewright.procedures.procedure import Procedure
+from shapewright.processes.external import words_of
+from shapewright.processes.limits import memory_left
+from shapewright.processes.resident import Answer, Gone, Resident
+from shapewright.shapes import Mesh
+
+_PROGRAM = Path(__file__).with_name("program.py")
+_NO_MEMORY = ("alloc returns null", "bad_alloc", "MemoryError")
+"""What Blender says last when it gets no memory."""
+_residents: dict[Path, Resident] = {}
+"""The Blenders of this process, by the file that each has open: starting one takes a second."""
+
+
+@dataclass(frozen=True, slots=True)
+class NodeGroup:
+    """A function from values of sockets, by their names in Python, to a mesh in Blender's axes.
+
+    Attributes:
+        file: the .blend file.
+        group: the name of the node group.
+        sockets: its inputs.
+    """
+
+    file: Path
+    group: str
+    sockets: tuple[Socket, ...]
+
+    @property
+    def __name__(self) -> str:
+        return self.group
+
+    @property
+    def __signature__(self) -> inspect.Signature:
+        return inspect.Signature([socket.parameter for socket in self.sockets])
+
+    @property
+    def place(self) -> Place:
+        return Place(str(self.file), None)
+
+    def __call__(self, **values: Any) -> Mesh:
+        """Raises ProcedureError where there is no mesh, or Blender ends; MemoryError."""
+        known = {socket.argument: socket for socket in self.sockets}
+        given = {known[name].identifier: _plain(value) for name, value in values.items()}
+        request = {"group": self.group, "values": given, "memory": memory_left()}
+        answer = _asked(lambda: _resident(self.file).ask(request), self.place)
+        if empty := answer.header.get("empty"):
+            said = "; ".join(answer.header["warnings"])
+            raise ProcedureError(_empty(*empty) + (f". Blender says: {said}" if said else ""), self.place)
+        return _mesh(answer)
+
+
+def read(path: Path, name: str | None) -> Procedure:
+    """The procedure of a node group of a file. name: of the group; a file with one group needs none.
+
+    Raises ProcedureError when Blender is missing or cannot open the file, or no socket is a parameter.
+    """
+    place = Place(str(path), None)
+    groups = _opened(path, place)
+    names = [str(group["name"]) for group in groups]
+    outer = [str(group["name"]) for group in groups if group["outer"]]
+    if not names:
+        raise ProcedureError("there is no geometry node group in it that gives a geometry", place)
+    if name is None and len(outer) != 1:
+        raise ProcedureError(
+            f"several node groups ({', '.join(outer)}); say which: {path}:{(outer or names)[0]}", place
+        )
+    chosen = outer[0] if name is None else name
+    if chosen not in names:
+        raise ProcedureError(f"no node group {chosen!r} in it; there is {', '.join(names)}", place)
+    sockets = sockets_of(next(group["sockets"] for group in groups if group["name"] == chosen))
+    if all(socket.held for socket in sockets):
+        why = "; ".join(f"{socket.name}: {socket.held}" for socket in sockets) or "it has none"
+        raise ProcedureError(
+            f"no socket of the group {chosen!r} is a parameter ({why}). Set Min and Max of its sockets: N, Group", place
+        )
+    return Procedure(NodeGroup(path, chosen, sockets), facts=Facts(up="z", unit="m"))
+
+
+def _opened(path: Path, place: Place) -> list[dict[str, Any]]:
+    """What is in a file, opened anew."""
+
+    def ask() -> Answer:
+        resident = _residents.get(path)
+        return resident.ask({"open": str(path)}) if resident and resident.alive else _resident(path).first
+
+    groups: list[dict[str, Any]] = _asked(ask, place).header["groups"]
+    return groups
+
+
+def _resident(file: Path) -> Resident:
+    resident = _residents.get(file)
+    if resident is None or not resident.alive:
+        resident = _residents[file] = Resident(words(_PROGRAM), {"open": str(file)})
+    return resident
+
+
+def _asked(ask: Callable[[], Answer], place: Place) -> Answer:
+    """An answer that is none of failure. Raises ProcedureError; MemoryError."""
+    try:
+        answer = ask()
+    except OSError as error:
+        raise ProcedureError(f"Blender does not start: {error}", place) from error
+    except Gone as error:
+        last = error.ended.last_words
+        if any(sign in last for sign in _NO_MEMORY):
+            raise MemoryError from error
+        status = words_of(error.ended.status or 0)
+        raise ProcedureError(
+            f"{last}: Blender ended ({status})" if last else f"Blender ended ({status})", place, "crash"
+        ) from error
+    if answer.header.get("lost") == "memory":
+        raise MemoryError
+    if answer.header.get("lost") == "module":
+        raise ProcedureError(f"{words(_PROGRAM)[0]} has no module {answer.header['name']}. {ADVICE}", place)
+    if said := answer.header.get("error"):
+        raise ProcedureError(f"Blender says: {said}", place)
+    return answer
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.generic):
+        return value.item()
+    return [_plain(part) for part in value] if isinstance(value, tuple | list) else value
+
+
+def _empty(vertices: int, edges: int) -> str:
+    if edges:
+        return f"the mesh has {edges} edges and no face: curves need a Curve to Mesh node with a profile"
+    return f"the mesh has {vertices} points and no face" if vertices else "the group gives no mesh at these values"
+
+
+def _mesh(answer: Answer) -> Mesh:
+    """Labels are the named attributes; a face without one has the name of its material."""
+    header: Mapping[str, Any] = answer.header
+    arrays = answer.arrays
+    named: list[str] = header["labels"]
+    materials: list[str] = header["materials"]
+    slots = arrays["face_materials"]
+    labels = np.where(arrays["face_labels"] >= 0, arrays["face_labels"], np.where(slots >= 0, slots + len(named), -1))
+    used = np.unique(labels[labels >= 0])
+    every = [*named, *materials]
+    names = tuple(dict.fromkeys(every[i] for i in used))
+    number = np.full(len(every) + 1, -1)
+    number[used] = [names.index(every[i]) for i in used]
+    colours = np.array([*header["colours"], [0.0] * 4])[slots]
+    return Mesh(
+        arrays["vertices"],
+        arrays["faces"],
+        number[labels] if names else None,
+        names,
+        face_colours=_srgb(colours) if (slots >= 0).any() else None,
+    )
+
+
+def _srgb(linear: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """(F, 4) uint8 of linear colours (IEC 61966-2-1)."""
+    colour = linear.clip(0.0, 1.0)
+    shown = np.where(colour <= 0.0031308, 12.92 * colour, 1.055 * colour ** (1.0 / 2.4) - 0.055)
+    shown[:, 3] = colour[:, 3]
+    return np.asarray(np.round(255.0 * shown), dtype=np.uint8)
