@@ -10,7 +10,9 @@ import pytest
 import shapewright as sw
 from shapewright.building.pool import Workers
 from shapewright.fitting.samples import write_samples
+from shapewright.processes import Limits
 from shapewright.runs.helpers import helpers_of, read_helpers, write_source
+from shapewright.studio.bench.workshop import Broken, Workshop
 
 pytest.importorskip("openscad_evaluator", reason="needs the extra openscad; run `make test-adapters`")
 
@@ -208,3 +210,16 @@ def test_an_example_builds_closed_shapes_of_the_size_that_it_says(path):
     assert len(made) >= 5 and all(mesh.soundness().closed for mesh in made)
     assert all(30 < mesh.extent.max() < 400 for mesh in made)
     assert made[0].label_names
+
+
+def test_the_studio_reads_it_and_tells_an_error_with_its_line(tmp_path):
+    file = written(tmp_path, BOX)
+    workshop = Workshop()
+    version = workshop.load(file, Limits())
+    assert version.name == "box" and [p.name for p in version.parameters][:3] == ["width", "wall", "kind"]
+    assert workshop.build({"width": 120}).build.shape.extent[0] == pytest.approx(120)
+    file.write_text("w = 4; // [1:9]\ncube(w;")
+    with pytest.raises(Broken) as raised:
+        workshop.load(file, Limits())
+    assert (raised.value.problem.file, raised.value.problem.line) == ("box.scad", 2)
+    workshop.close()

@@ -11,7 +11,7 @@ from shapewright.building import Workers
 from shapewright.feedback.case import Case, Replica
 from shapewright.feedback.explanation import Explanation
 from shapewright.feedback.record import record_of
-from shapewright.feedback.suggestions import suggestions
+from shapewright.feedback.suggestions import no_suggestions, suggestions
 from shapewright.feedback.surfaces.residuals import residuals
 from shapewright.judging.judge import Judge
 from shapewright.modelling.solids import box
@@ -114,3 +114,14 @@ def test_nothing_is_suggested_for_what_the_procedure_can_do(table, monkeypatch):
     shapes = {"plain": table(height=0.5, depth=0.6)}
     made, _ = suggested(table, shapes, [{"height": 0.5, "depth": 0.6}], monkeypatch)
     assert made == ()
+
+
+def test_a_procedure_that_is_no_python_file_is_told_why_nothing_is_suggested(tmp_path):
+    (tmp_path / "table.py").write_text(TABLE)
+    table = sw.load_procedure(tmp_path / "table.py")
+    assert no_suggestions(table) is None
+    table.path = tmp_path / "table.scad"
+    assert no_suggestions(table) == (
+        "No changes are suggested, since they edit a function at the top level of a Python file, and table is none."
+    )
+    assert record_of(Explanation({}, (), unsuggested="No changes."))["unsuggested"] == "No changes."

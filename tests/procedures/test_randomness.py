@@ -75,3 +75,13 @@ def test_a_line_that_may_differ_from_call_to_call_is_found(tmp_path, imports, li
 @pytest.mark.parametrize(("imports", "line"), NONE)
 def test_what_has_a_seed_or_an_order_is_none(tmp_path, imports, line):
     assert chances(sw.load_procedure(procedure_of(tmp_path, imports, line))) == []
+
+
+def test_rands_of_openscad_without_a_seed_is_found(tmp_path, monkeypatch):
+    monkeypatch.setattr("shapewright.procedures.openscad.reading._check", lambda path, stamp: None)
+    file = tmp_path / "rock.scad"
+    file.write_text(
+        "w = 4; // [1:9] rands(0, 1, 1)\na = rands(0, max(w, 1),\n 2);\nb = rands(0, w, 2, 42);\ncube(a[0]);"
+    )
+    (chance,) = chances(sw.load_procedure(file))
+    assert (chance.kind, chance.place.line, chance.says) == ("random", 2, "rands draws without a seed")

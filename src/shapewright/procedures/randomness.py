@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
+from shapewright.procedures.openscad.text import Text
 from shapewright.procedures.places import Place
 from shapewright.procedures.procedure import Procedure
 
@@ -54,8 +55,12 @@ def chances(procedure: Procedure) -> list[Chance]:
     """
     path = procedure.path
     texts = [(str(path or procedure.place.file), procedure.source, 1 if path else procedure.place.line or 1)]
-    texts += [(str(file), _read(file), 1) for file in procedure.helpers if file.suffix == ".py"]
-    found = [chance for file, text, first in texts for chance in _of_text(file, text, first)]
+    texts += [(str(file), _read(file), 1) for file in procedure.helpers if file.suffix in (".py", ".scad")]
+    found = [
+        chance
+        for file, text, first in texts
+        for chance in (_of_openscad(file, text) if file.lower().endswith(".scad") else _of_text(file, text, first))
+    ]
     return sorted(found, key=lambda chance: _KINDS.index(chance.kind))
 
 
@@ -64,6 +69,13 @@ def _read(file: Path) -> str:
         return file.read_text("utf-8")
     except (OSError, UnicodeDecodeError):
         return ""
+
+
+def _of_openscad(file: str, text: str) -> Iterator[Chance]:
+    """Calls of ``rands`` with three values: the fourth is the seed."""
+    lines = text.splitlines()
+    for line in Text.of(text).calls("rands", 3):
+        yield Chance("random", Place(file, line, lines[line - 1].strip()), "rands")
 
 
 def _of_text(file: str, text: str, first: int) -> Iterator[Chance]:

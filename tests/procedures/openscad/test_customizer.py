@@ -1,5 +1,6 @@
 """What the Customizer's annotations say, as the manual of OpenSCAD has them and as public files write them."""
 
+from pathlib import Path
 from typing import Annotated, Literal
 
 import pytest
@@ -119,3 +120,19 @@ def test_values_are_read_as_they_are_written():
     values = [setting.value for setting in settings('a=-.5; b=1e3; c="x\\"y"; d=[1,-2.0,]; e=true; f=+7;')]
     assert values == [-0.5, 1000.0, 'x"y', (1, -2.0), True, 7]
     assert [type(value) for value in values] == [float, float, str, tuple, bool, int]
+
+
+def test_the_block_of_the_page_says_what_it_says():
+    page = (Path(__file__).resolve().parents[3] / "docs" / "generators.md").read_text(encoding="utf-8")
+    block = page.partition("```openscad\n")[2].partition("```")[0]
+    hints = {setting.name: setting.hint for setting in settings(block)}
+    assert hints == {
+        "width": Annotated[int, Range(40, 160)],
+        "height": Annotated[float, Range(10, 60, 101)],
+        "teeth": Annotated[int, Range(8, 24, list(range(8, 25, 2)))],
+        "bore": Literal[4, 6, 8],
+        "lid": Literal["none", "flat", "knob"],
+        "rounded": bool,
+        "plate": tuple[(Annotated[int, Range(20, 200)],) * 2],
+        "wall": None,
+    }

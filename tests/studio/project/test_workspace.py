@@ -40,3 +40,42 @@ def test_what_fails_or_is_killed_leaves_the_text_as_it_was(project):
     assert hidden(project.folder) == [".gitignore", SCRATCH]
     killed(lambda: project.write_source("x" * 30, None))
     assert shown(project.folder) == before
+
+
+@pytest.fixture
+def scad(tmp_path):
+    """A project whose procedure is no Python, with what it uses and what it does not."""
+    (tmp_path / "lib").mkdir()
+    (tmp_path / "box.scad").write_text('use <lib/feet.scad>\nimport("my logo.stl");\n')
+    (tmp_path / "lib" / "feet.scad").write_text("include <sizes.scad>\n")
+    (tmp_path / "lib" / "sizes.scad").write_text("a = 1;\n")
+    (tmp_path / "my logo.stl").write_bytes(b"\0binary")
+    (tmp_path / "other.scad").write_text("b = 1;\n")
+    return Project.of(tmp_path, "box.scad")
+
+
+@pytest.mark.parametrize("name", ["box.scad", "lib/feet.scad", "lib/sizes.scad", "my logo.stl"])
+def test_a_change_of_what_a_procedure_that_is_no_python_uses_is_seen(scad, name):
+    before = scad.fingerprint()
+    (scad.folder / name).write_bytes((scad.folder / name).read_bytes() + b"// more")
+    assert scad.fingerprint() != before
+
+
+def test_a_change_of_what_it_does_not_use_is_none(scad):
+    before = scad.fingerprint()
+    (scad.folder / "other.scad").write_text("b = 2;\n")
+    assert scad.fingerprint() == before
+
+
+def test_copies_of_it_are_the_same_kind_of_file(scad):
+    scad.write_source("cube(2);", None)
+    assert [path.suffix for path in (scad.folder / SCRATCH).glob("procedure-*")] == [".scad"]
+    assert scad.write_copy("cube(3);").name == "box-1.scad"
+
+
+def test_a_binary_procedure_is_read_as_a_line_about_it_and_never_written(tmp_path):
+    (tmp_path / "model.blend").write_bytes(b"BLENDER\xff\0")
+    project = Project.of(tmp_path, "model.blend")
+    assert project.read_source()[0].startswith("9 bytes, SHA-256 ")
+    with pytest.raises(ProjectError, match=r"model.blend is no text"):
+        project.write_source("other", None)

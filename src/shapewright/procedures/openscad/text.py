@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"?|//[^\n]*|/\*.*?(?:\*/|\Z)', re.DOTALL)
@@ -57,6 +58,18 @@ class Text:
     def line(self, place: int) -> int:
         """The number of the line of a place in the text, from 1."""
         return self.code.count("\n", 0, place) + 1
+
+    def calls(self, name: str, arguments: int) -> Iterator[int]:
+        """The lines of the calls of a function with so many arguments."""
+        for match in re.finditer(rf"\b{name}\s*\(", self.bare):
+            depth, commas = 0, 0
+            for character in self.bare[match.end() - 1 :]:
+                depth += (character in "([{") - (character in ")]}")
+                commas += character == "," and depth == 1
+                if not depth:
+                    break
+            if commas + 1 == arguments:
+                yield self.line(match.start())
 
     @property
     def files(self) -> tuple[str, ...]:
