@@ -73,7 +73,7 @@ def test_limits_and_defaults_of_sockets_are_the_space(shelf):
         "back": True,
         "feet": "Posts",
     }
-    assert shelf.facts.stated == {"up": "z", "unit": "m"}
+    assert shelf.facts.stated == {"up": "z", "unit": "m", "size": "given"}
 
 
 @pytest.mark.parametrize("values", [{}, {"width": 1.3, "feet": "Plinth"}, {"height": 0.9, "depth": 0.5, "boards": 7}])
@@ -92,6 +92,10 @@ def test_named_attributes_are_the_labels(shelf):
     back = mesh.triangles[np.array(mesh.labels) == "back"]
     assert back[..., 2].max() < 0.0  # the front looks towards +Z, which is -Y in Blender
     assert "back" not in shelf(back=False).label_names
+
+
+def test_the_unit_of_the_scene_and_a_text_of_the_file_are_facts(strange):
+    assert load_procedure(f"{strange}:Kinds").facts.stated == {"up": "z", "unit": "mm"}
 
 
 def test_materials_are_labels_and_colours():

@@ -81,6 +81,7 @@ def loose():
 
 if __name__ == "__main__":
     bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.context.scene.unit_settings.scale_length = 0.001
     for make in (kinds, grid, wire, loose):
         make()
     bpy.ops.wm.save_as_mainfile(filepath=str(Path(sys.argv[-1], "strange.blend").resolve()), compress=True)

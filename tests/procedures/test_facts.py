@@ -72,3 +72,11 @@ def test_samples_come_in_the_axes_of_the_procedure_and_glb_in_its_own_and_in_met
     assert both.extents == pytest.approx((height, height))
     assert both.standing("z").references[0].shape.extent[1] == 1.0
     assert both.standing("z").references[1].shape is both.references[1].shape
+
+
+def test_facts_are_read_from_a_text():
+    assert Facts.written("up=z, unit='mm'", {"size": "given"}) == Facts("z", "mm", "given")
+    assert Facts.written("", {"up": "z"}) == Facts("z")
+    for text in ("size=large", "size", "colour=red"):
+        with pytest.raises(ValueError, match="size"):
+            Facts.written(text, {})

@@ -100,6 +100,7 @@ class Group:
         holder = bpy.data.objects.new(self.tree.name, bpy.data.meshes.new(self.tree.name))
         bpy.context.scene.collection.objects.link(holder)
         holder.modifiers.new(self.tree.name, "NODES").node_group = self.tree
+        bpy.data.texts.new("shapewright").write("size=given")
         bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True)
 
 

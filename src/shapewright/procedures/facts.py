@@ -60,6 +60,15 @@ class Facts:
         """The inverse of ``stated``, from a record that may hold other things."""
         return cls(**{field.name: record[field.name] for field in fields(cls) if field.name in record})
 
+    @classmethod
+    def written(cls, text: str, usual: Mapping[str, Any]) -> Facts:
+        """Those of a text such as ``up=z, unit=mm``; any other is as usual. Raises ValueError for what is no fact."""
+        pairs = [part.partition("=") for part in text.replace(",", " ").split()]
+        given = {name: value.strip("\"'") for name, _, value in pairs}
+        if strange := given.keys() - {field.name for field in fields(cls)}:
+            raise ValueError(f"{', '.join(sorted(strange))}: write up, unit or size, as in size=given")
+        return cls(**{**usual, **given})
+
     def stood(self, shape: Shape) -> Shape:
         """What the function built, Y up, front towards +Z; a drawing stays as it is."""
         if self.up == "y" or isinstance(shape, Drawing):

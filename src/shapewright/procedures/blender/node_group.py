@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import isclose
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import numpy as np
 from shapewright.procedures.blender.installed import ADVICE, words
 from shapewright.procedures.blender.sockets import Socket, sockets_of
 from shapewright.procedures.errors import ProcedureError
-from shapewright.procedures.facts import Facts
+from shapewright.procedures.facts import METRES, Facts
 from shapewright.procedures.places import Place
 from shapewright.procedures.procedure import Procedure
 from shapewright.processes.external import words_of
@@ -72,7 +73,8 @@ def read(path: Path, name: str | None) -> Procedure:
     Raises ProcedureError when Blender is missing or cannot open the file, or no socket is a parameter.
     """
     place = Place(str(path), None)
-    groups = _opened(path, place)
+    inside = _opened(path, place)
+    groups: list[dict[str, Any]] = inside["groups"]
     names = [str(group["name"]) for group in groups]
     outer = [str(group["name"]) for group in groups if group["outer"]]
     if not names:
@@ -90,18 +92,25 @@ def read(path: Path, name: str | None) -> Procedure:
         raise ProcedureError(
             f"no socket of the group {chosen!r} is a parameter ({why}). Set Min and Max of its sockets: N, Group", place
         )
-    return Procedure(NodeGroup(path, chosen, sockets), facts=Facts(up="z", unit="m"))
+    return Procedure(NodeGroup(path, chosen, sockets), facts=_facts(inside, place))
 
 
-def _opened(path: Path, place: Place) -> list[dict[str, Any]]:
+def _facts(inside: Mapping[str, Any], place: Place) -> Facts:
+    unit = next((name for name, metres in METRES.items() if isclose(metres, inside["scale"], rel_tol=1e-3)), "m")
+    try:
+        return Facts.written(inside["facts"], {"up": "z", "unit": unit})
+    except ValueError as error:
+        raise ProcedureError(f"the text-block 'shapewright': {error}", place) from error
+
+
+def _opened(path: Path, place: Place) -> Mapping[str, Any]:
     """What is in a file, opened anew."""
 
     def ask() -> Answer:
         resident = _residents.get(path)
         return resident.ask({"open": str(path)}) if resident and resident.alive else _resident(path).first
 
-    groups: list[dict[str, Any]] = _asked(ask, place).header["groups"]
-    return groups
+    return _asked(ask, place).header
 
 
 def _resident(file: Path) -> Resident:
@@ -121,10 +130,9 @@ def _asked(ask: Callable[[], Answer], place: Place) -> Answer:
         last = error.ended.last_words
         if any(sign in last for sign in _NO_MEMORY):
             raise MemoryError from error
-        status = words_of(error.ended.status or 0)
-        raise ProcedureError(
-            f"{last}: Blender ended ({status})" if last else f"Blender ended ({status})", place, "crash"
-        ) from error
+        how = f"Blender ended ({words_of(error.ended.status or 0)})"
+        limited = "" if memory_left() is None else "; a limit of memory can be the reason: shape_memory_mb"
+        raise ProcedureError((f"{last}: {how}" if last else how) + limited, place, "crash") from error
     if answer.header.get("lost") == "memory":
         raise MemoryError
     if answer.header.get("lost") == "module":

@@ -49,7 +49,7 @@ def main() -> None:
         try:
             if "open" in request:
                 file = File(request["open"])
-                answer = {"groups": file.groups}
+                answer = {"groups": file.groups, "scale": file.scale, "facts": file.facts}
             else:
                 assert file is not None
                 limited = limited or _limit_memory(request["memory"])
@@ -69,6 +69,8 @@ class File:
     """An open .blend file.
 
     groups: its geometry node groups: name, sockets, and whether a person would put it on an object.
+    scale: metres of its unit.
+    facts: what the text-block called "shapewright" says.
     """
 
     def __init__(self, path: str) -> None:
@@ -82,8 +84,11 @@ class File:
         self.groups = [
             {"name": tree.name, "outer": tree not in inner, "sockets": list(_sockets(tree))}
             for tree in trees
-            if any(_is_geometry(item) for item in _items(tree, "OUTPUT"))
+            if any(item.socket_type == "NodeSocketGeometry" for item in _items(tree, "OUTPUT"))
         ]
+        self.scale = _short(bpy.context.scene.unit_settings.scale_length)
+        said = bpy.data.texts.get("shapewright")
+        self.facts = said.as_string() if said else ""
         self._open: dict[str, _Bench] = {}
 
     def built(self, name: str, values: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -171,10 +176,6 @@ def _sockets(tree: Any) -> Iterator[dict[str, Any]]:
 
 def _items(tree: Any, way: str) -> list[Any]:
     return [item for item in tree.interface.items_tree if item.item_type == "SOCKET" and item.in_out == way]
-
-
-def _is_geometry(item: Any) -> bool:
-    return bool(item.socket_type == "NodeSocketGeometry")
 
 
 def _short(value: Any) -> Any:

@@ -123,17 +123,15 @@ def _parameter(path: Path, setting: Setting) -> inspect.Parameter:
 
 def _facts(path: Path, text: Text) -> Facts:
     """Those of ``// shapewright: size=given``. Raises ProcedureError for others than there are."""
-    found = dict(FACTS)
+    found = Facts(**FACTS)
     for comment in text.comments:
         if match := _FACTS.fullmatch(comment.text):
-            pairs = [part.split("=") for part in match[1].replace(",", " ").split()]
             try:
-                found |= {name: value.strip("\"'") for name, value in pairs}
-                Facts(**found)
-            except (TypeError, ValueError) as error:
+                found = Facts.written(match[1], vars(found))
+            except ValueError as error:
                 advice = "write for example: // shapewright: up=z, unit=mm, size=given"
                 raise ProcedureError(f"{error}; {advice}", place(path, text.line(comment.start))) from error
-    return Facts(**found)
+    return found
 
 
 def _no_space(found: Sequence[Setting]) -> str:
