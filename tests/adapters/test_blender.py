@@ -212,7 +212,7 @@ def test_builds_leave_no_data_blocks_behind(tmp_path):
     script.write_text(
         f"import sys\nsys.path.insert(0, {str(Path(node_group.__file__).parent)!r})\nimport bpy, program\n"
         f"file = program.File({str(MODELS / 'shelf.blend')!r})\n"
-        "boards = next(s['identifier'] for s in file.groups[0]['sockets'] if s['name'] == 'Boards')\n"
+        "boards = next(s['identifier'] for s in file.inside['groups'][0]['sockets'] if s['name'] == 'Boards')\n"
         "kinds = ('meshes', 'objects', 'node_groups', 'scenes', 'materials', 'collections')\n"
         "for i in range(40):\n    file.built('Shelf', {boards: 2 + i % 6})\n"
         "    print('blocks', [len(getattr(bpy.data, kind)) for kind in kinds])\n"
@@ -223,6 +223,14 @@ def test_builds_leave_no_data_blocks_behind(tmp_path):
 
 def test_a_run_keeps_the_file(shelf):
     assert helpers_of(shelf) == {"procedure.blend": (MODELS / "shelf.blend").read_bytes()}
+
+
+def test_a_linked_group_is_built_and_a_run_keeps_the_file_that_it_is_in(strange, tmp_path):
+    linking = load_procedure(strange.with_name("linking.blend"))
+    assert linking.name == "Wire" and linking.helpers == (strange,)
+    for name, content in helpers_of(linking).items():
+        (tmp_path / name).write_bytes(content)
+    assert len(load_procedure(tmp_path / "procedure.blend")(solid=True).faces) == 14
 
 
 def test_another_file_is_another_procedure(shelf, tmp_path):

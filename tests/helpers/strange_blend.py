@@ -1,4 +1,6 @@
-"""Makes strange.blend: node groups with sockets of every kind, and some that fail. Run in Blender's Python.
+"""Makes strange.blend: node groups with sockets of every kind, and some that fail; and linking.blend, which links one.
+
+Run in Blender's Python:
 
 python strange_blend.py FOLDER
 """
@@ -79,9 +81,23 @@ def loose():
     group.finish(group.node("GeometryNodeMeshCube", group.vector(size, size, size)))
 
 
+def link(folder):
+    """A file that has a group of the other one only."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "linking.blend"))
+    with bpy.data.libraries.load(str(folder / "strange.blend"), link=True, relative=True) as (_, taken):
+        taken.node_groups = ["Wire"]
+    holder = bpy.data.objects.new("holder", bpy.data.meshes.new("holder"))
+    bpy.context.scene.collection.objects.link(holder)
+    holder.modifiers.new("Wire", "NODES").node_group = bpy.data.node_groups["Wire"]
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "linking.blend"), compress=True)
+
+
 if __name__ == "__main__":
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.context.scene.unit_settings.scale_length = 0.001
     for make in (kinds, grid, wire, loose):
         make()
-    bpy.ops.wm.save_as_mainfile(filepath=str(Path(sys.argv[-1], "strange.blend").resolve()), compress=True)
+    folder = Path(sys.argv[-1]).resolve()
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "strange.blend"), compress=True)
+    link(folder)

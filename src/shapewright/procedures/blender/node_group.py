@@ -92,7 +92,9 @@ def read(path: Path, name: str | None) -> Procedure:
         raise ProcedureError(
             f"no socket of the group {chosen!r} is a parameter ({why}). Set Min and Max of its sockets: N, Group", place
         )
-    return Procedure(NodeGroup(path, chosen, sockets), facts=_facts(inside, place))
+    made = Procedure(NodeGroup(path, chosen, sockets), facts=_facts(inside, place))
+    made.helpers = tuple(sorted(Path(file).resolve() for file in inside["files"]))
+    return made
 
 
 def _facts(inside: Mapping[str, Any], place: Place) -> Facts:

@@ -8,6 +8,7 @@ error.
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import ctypes
 import json
@@ -27,6 +28,8 @@ _BY_FILE = {"object", "material", "collection", "image", "texture"}
 """Kinds of sockets whose values are data-blocks. An object of the file that uses the group says which."""
 _BUILT_IN = {"sharp_face", "freestyle_face"}
 """Boolean attributes of faces that Blender makes itself."""
+_OLDEST = (4, 2, 0)
+"""The oldest version that was tried."""
 _DIGITS = 7
 """Digits of Blender's numbers: .14 comes as 0.14000000059604645."""
 
@@ -49,7 +52,7 @@ def main() -> None:
         try:
             if "open" in request:
                 file = File(request["open"])
-                answer = {"groups": file.groups, "scale": file.scale, "facts": file.facts}
+                answer = file.inside
             else:
                 assert file is not None
                 limited = limited or _limit_memory(request["memory"])
@@ -68,27 +71,32 @@ def main() -> None:
 class File:
     """An open .blend file.
 
-    groups: its geometry node groups: name, sockets, and whether a person would put it on an object.
-    scale: metres of its unit.
-    facts: what the text-block called "shapewright" says.
+    inside: what is in it. ``groups``: its geometry node groups, each with name, sockets, and whether it is no part of
+        another one; ``scale``: metres of its unit; ``facts``: what the text called "shapewright" says; ``files``:
+        other .blend files that it links.
     """
 
     def __init__(self, path: str) -> None:
         import bpy
 
+        if bpy.app.version < _OLDEST:
+            raise RuntimeError(f"this is version {bpy.app.version_string}; 4.2 or later is needed")
         self.bpy: Any = bpy
         bpy.ops.wm.read_factory_settings(use_empty=True)
         bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=False)
         trees = [tree for tree in bpy.data.node_groups if tree.bl_idname == "GeometryNodeTree"]
         inner = {node.node_tree for tree in trees for node in tree.nodes if getattr(node, "node_tree", None)}
-        self.groups = [
-            {"name": tree.name, "outer": tree not in inner, "sockets": list(_sockets(tree))}
-            for tree in trees
-            if any(item.socket_type == "NodeSocketGeometry" for item in _items(tree, "OUTPUT"))
-        ]
-        self.scale = _short(bpy.context.scene.unit_settings.scale_length)
         said = bpy.data.texts.get("shapewright")
-        self.facts = said.as_string() if said else ""
+        self.inside = {
+            "groups": [
+                {"name": tree.name, "outer": tree not in inner, "sockets": list(_sockets(tree))}
+                for tree in trees
+                if any(item.socket_type == "NodeSocketGeometry" for item in _items(tree, "OUTPUT"))
+            ],
+            "scale": _short(bpy.context.scene.unit_settings.scale_length),
+            "facts": said.as_string() if said else "",
+            "files": [bpy.path.abspath(library.filepath) for library in bpy.data.libraries],
+        }
         self._open: dict[str, _Bench] = {}
 
     def built(self, name: str, values: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -187,8 +195,6 @@ def _options(item: Any) -> list[str]:
     try:
         item.default_value = "\1"
     except TypeError as error:
-        import ast
-
         with contextlib.suppress(ValueError, SyntaxError):
             return [str(option) for option in ast.literal_eval(str(error).partition("not found in ")[2])]
     return []
@@ -220,7 +226,8 @@ def _tables(mesh: Any) -> tuple[dict[str, Any], dict[str, Any]]:
     labels = np.full(len(faces), -1, dtype=np.int32)
     names: list[str] = []
     for attribute in mesh.attributes:
-        if attribute.data_type == "BOOLEAN" and attribute.domain in where and _of_author(attribute):
+        own = not attribute.is_internal and attribute.name not in _BUILT_IN
+        if own and attribute.data_type == "BOOLEAN" and attribute.domain in where:
             marked = where[attribute.domain](column(attribute.data, "value", 1, bool))
             labels[marked] = len(names)
             names.append(attribute.name)
@@ -231,10 +238,6 @@ def _tables(mesh: Any) -> tuple[dict[str, Any], dict[str, Any]]:
     }
     points = column(mesh.vertices, "co", 3, np.float32)
     return header, {"vertices": points, "faces": faces, "face_labels": labels, "face_materials": slots}
-
-
-def _of_author(attribute: Any) -> bool:
-    return not attribute.is_internal and attribute.name not in _BUILT_IN and not attribute.name.startswith(".")
 
 
 def _colour(material: Any) -> Any:
