@@ -33,6 +33,10 @@ def test_a_command_is_sampled_fitted_and_kept_in_its_run(tmp_path):
     run = project / "runs" / "001"
     assert (run / "procedure.toml").read_text() == (project / "tool_box.toml").read_text()
     assert (run / "tool_box.py").read_text() == (project / "tool_box.py").read_text()
+    printed = shapewright("parameters", run, "--form", "json", cwd=project)
+    assert printed.returncode == 0, printed.stderr
+    assert set(json.loads(printed.stdout)["parameterSets"]) == set(record["results"])
+    assert "there is no reference 'x'" in shapewright("parameters", run, "x", cwd=project).stderr.replace("\n", " ")
     assert load_procedure(run / "procedure.toml")(width=300.0).extent[0] == 300.0
 
 
@@ -43,3 +47,30 @@ def test_a_failure_of_all_shapes_says_what_the_program_said(tmp_path):
     made = shapewright("sample", "spec.toml", "-n", 9, "--out", "out", cwd=tmp_path)
     assert made.returncode == 1
     assert "the program failed: no licence (exit status 4)" in made.stderr.replace("\n", " ")
+
+
+def test_parameters_of_a_file_are_built_and_those_of_a_run_come_out(tmp_path):
+    (tmp_path / "sets.json").write_text(
+        json.dumps({"parameterSets": {"wide one": {"width": "480", "handle": "false"}, "b": {}}})
+    )
+    made = shapewright(
+        "sample",
+        EXAMPLE / "tool_box.toml",
+        "--parameters",
+        "sets.json",
+        "--format",
+        "obj",
+        "--out",
+        "made",
+        cwd=tmp_path,
+    )
+    assert made.returncode == 0, made.stderr
+    assert sorted(path.name for path in (tmp_path / "made").glob("*.obj")) == ["b.obj", "wide-one.obj"]
+    rows = (tmp_path / "made" / "manifest.csv").read_text().splitlines()
+    assert rows[1].startswith("wide-one.obj,480.0,180.0,110.0,8.0,2,none,20.0,False,")
+    again = shapewright(
+        "sample", EXAMPLE / "tool_box.toml", "--parameters", "made/manifest.csv", "--out", "again", cwd=tmp_path
+    )
+    assert again.returncode == 0, again.stderr
+    wrong = shapewright("sample", EXAMPLE / "tool_box.toml", "--parameters", "rows.csv", "--out", "c", cwd=tmp_path)
+    assert wrong.returncode == 1 and "rows.csv: it cannot be read" in wrong.stderr.replace("\n", " ")

@@ -14,7 +14,7 @@ from shapewright.cli.evaluations import evaluate
 from shapewright.cli.fits import fit
 from shapewright.cli.projects import demo, new
 from shapewright.cli.rules import rules
-from shapewright.cli.runs import compare, explain, mark, report
+from shapewright.cli.runs import compare, explain, mark, parameters, report
 from shapewright.cli.shape_files import describe, sample, silhouettes
 from shapewright.cli.studio import studio
 from shapewright.procedures import ProcedureError
@@ -29,7 +29,8 @@ app = typer.Typer(
     help="Find the parameters that replicate a collection of shapes, and see what the procedure cannot make yet.",
     epilog="Start with [bold]shapewright demo[/], or with [bold]shapewright new chairs[/] for a project of your own.",
 )
-for command in (new, check, fit, explain, mark, evaluate, describe, sample, silhouettes, report, compare, studio, demo):
+_SHAPES = (describe, sample, silhouettes)
+for command in (new, check, fit, explain, mark, evaluate, *_SHAPES, report, parameters, compare, studio, demo):
     app.command()(command)
 app.add_typer(rules, name="rules")
 

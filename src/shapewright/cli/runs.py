@@ -18,6 +18,7 @@ from shapewright.cli.console import (
     print_json,
 )
 from shapewright.cli.options import Json, Workers
+from shapewright.procedures.forms import Form
 from shapewright.runs.folder import RunError, previous_run
 from shapewright.runs.marks import marks_path
 from shapewright.settings import JudgeName, Settings
@@ -91,6 +92,33 @@ def report(
         print_json({"report": str(path)})
     else:
         out.print(escape(str(path)), soft_wrap=True, highlight=False)
+
+
+def parameters(
+    run: Run,
+    names: Annotated[list[str] | None, typer.Argument(help="References of the run.  [dim]default: all[/]")] = None,
+    form: Annotated[
+        Form,
+        typer.Option(help="A call in Python, the arguments of openscad, its parameter sets as JSON, or a table."),
+    ] = "csv",
+    json: Json = False,
+) -> None:
+    """Print the parameters that a run found, in a form that the procedure's own program reads."""
+    from shapewright.procedures.forms import written
+    from shapewright.runs.inputs import procedure_of
+    from shapewright.runs.iteration import Iteration
+
+    iteration = Iteration.load(run.absolute())
+    procedure = procedure_of(run.absolute(), iteration)
+    if missing := [name for name in names or () if name not in iteration.names]:
+        raise RunError(f"{run}: there is no reference {missing[0]!r}; there are {', '.join(iteration.names)}")
+    found = {result.name: result.parameters for result in iteration if result.name in (names or iteration.names)}
+    defaults = procedure.space.defaults
+    sets = {name: {key: values.get(key, defaults[key]) for key in defaults} for name, values in found.items() if values}
+    if json:
+        print_json({"form": form, "parameters": sets, "text": written(procedure, sets, form)})
+    else:
+        typer.echo(written(procedure, sets, form), nl=False)
 
 
 def compare(

@@ -14,10 +14,12 @@ from rich.table import Table
 from shapewright.cli.bars import interruptible
 from shapewright.cli.console import err, out, print_json
 from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers
-from shapewright.procedures import ProcedureError, load_procedure
+from shapewright.parameters import Parameters
+from shapewright.procedures import Procedure, ProcedureError, load_procedure
+from shapewright.procedures.sets import read_sets
 from shapewright.settings import Settings
 from shapewright.shapes.files import Format
-from shapewright.storage import printable
+from shapewright.storage import file_names, printable
 
 
 def sample(
@@ -30,18 +32,31 @@ def sample(
     ],
     count: Annotated[int, typer.Option("-n", "--count", min=1, help="How many shapes.")] = 10,
     format: Annotated[Format, typer.Option(help="Kind of file; drawings are written as SVG.")] = "glb",
+    parameters: Annotated[
+        Path | None,
+        typer.Option(help="Build what a file lists: OpenSCAD's parameter sets (JSON), or a CSV with a header."),
+    ] = None,
     seed: Seed = Settings.seed,
     workers: Workers = None,
     json: Json = False,
 ) -> None:
-    """Write random shapes of a procedure, and a table of their parameters and soundness."""
+    """Write random shapes of a procedure, or those that a file lists, and a table of their parameters and soundness."""
     from shapewright.fitting.samples import MANIFEST, write_samples
     from shapewright.progress import Progress
 
     author, folder = load_procedure(procedure), out_dir.absolute()
+    given = None if parameters is None else _listed(parameters, author)
+    count = count if given is None else len(given)
     with interruptible(f"what {MANIFEST} lists is whole; the same command adds the others") as listen:
         samples = write_samples(
-            author, count, folder, format, seed, workers, lambda done, total: listen(Progress("sample", done, total))
+            author,
+            count,
+            folder,
+            format,
+            seed,
+            workers,
+            lambda done, total: listen(Progress("sample", done, total)),
+            given,
         )
     if not samples.shapes:
         raise ProcedureError(f"none of {count} shapes could be built: {samples.failures}")
@@ -52,6 +67,20 @@ def sample(
     else:
         unsound = f", {samples.unsound} of them unsound," if samples.unsound else ""
         out.print(f"{samples.shapes} shapes{unsound} and {MANIFEST} in {escape(str(out_dir))}", highlight=False)
+
+
+def _listed(path: Path, author: Procedure) -> dict[str, Parameters]:
+    """The parameters that a file lists, by the names of the files to write."""
+    from shapewright.fitting.samples import COLUMNS
+
+    sets = read_sets(path, author, COLUMNS)
+    if sets.held:
+        err.print(f"[yellow]left at their defaults:[/] {escape(', '.join(sets.held))}", highlight=False)
+    named: dict[str, Parameters] = {}
+    for i, (name, values) in enumerate(sets.vectors):
+        named[name if name and name not in named else f"{name or author.name}-{i:05d}"] = values
+    slugs = file_names(tuple(named))
+    return {slugs[name]: values for name, values in named.items()}
 
 
 def describe(procedure: ProcedureArgument, json: Json = False) -> None:

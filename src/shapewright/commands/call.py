@@ -7,7 +7,7 @@ import functools
 import importlib
 import inspect
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -33,6 +33,11 @@ class Call:
     @property
     def __signature__(self) -> inspect.Signature:
         return inspect.Signature(self.spec.entries.parameters)
+
+    @property
+    def own_names(self) -> Mapping[str, str]:
+        """What the tool calls its parameters."""
+        return self.spec.entries.names
 
     @property
     def place(self) -> Place | None:

@@ -8,6 +8,7 @@ import shlex
 import sys
 import tempfile
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -37,6 +38,11 @@ class Command:
     @property
     def __signature__(self) -> inspect.Signature:
         return inspect.Signature(self.spec.entries.parameters)
+
+    @property
+    def own_names(self) -> Mapping[str, str]:
+        """What the tool calls its parameters."""
+        return self.spec.entries.names
 
     @property
     def place(self) -> Place | None:

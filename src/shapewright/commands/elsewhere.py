@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import tempfile
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -38,6 +39,11 @@ class Elsewhere:
     @property
     def __signature__(self) -> inspect.Signature:
         return inspect.Signature(self.spec.entries.parameters)
+
+    @property
+    def own_names(self) -> Mapping[str, str]:
+        """What the tool calls its parameters."""
+        return self.spec.entries.names
 
     @property
     def place(self) -> Place | None:

@@ -87,6 +87,8 @@ def _parameter(own: str, name: str, table: Mapping[str, Any]) -> inspect.Paramet
         raise EntryError(
             own, key, str(error).removeprefix(f"parameter {name!r}: ").removeprefix(f"{name}: ")
         ) from error
+    if "description" in table:
+        annotation = Annotated[annotation, str(table["description"])]
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 

@@ -10,7 +10,7 @@ import csv
 import hashlib
 import io
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from functools import partial
@@ -20,7 +20,7 @@ from typing import Any
 
 from shapewright.building import Build, Workers, describe_failures
 from shapewright.parameters import Parameters
-from shapewright.procedures import Facts, Procedure
+from shapewright.procedures import Facts, Procedure, source_digest
 from shapewright.progress import Listener, Stages
 from shapewright.runs.folder import RunError, check_free
 from shapewright.shapes import Drawing, Mesh
@@ -34,6 +34,8 @@ _FORMAT = 1
 _CHUNK = 256
 """Shapes after which the manifest is written, at least; an eighth of those before, so that this costs little."""
 _MEASURES = tuple(field.name for field in fields(Soundness))
+COLUMNS = ("path", "sound", *_MEASURES, "failure")
+"""Columns of a manifest that are no parameters."""
 
 
 @dataclass(frozen=True)
@@ -70,17 +72,20 @@ def write_samples(
     seed: int = 0,
     workers: int | None = None,
     progress: Callable[[int, int], object] | None = None,
+    given: Mapping[str, Parameters] | None = None,
 ) -> Samples:
     """Write shapes at ``count`` random parameter vectors and a manifest of these with the soundness of each shape.
+
+    given: parameters by the name of their file, in place of random ones.
 
     A folder that holds the first samples of the same procedure, seed and format is resumed. Drawings are written as
     SVG; they have no soundness. Raises RunError when the folder holds something else or cannot be written (what is
     there is then whole), ProcedureError when the procedure is broken.
     """
-    vectors = procedure.space.sample(count, seed=seed)
-    record = _record(procedure, format, seed)
+    vectors = procedure.space.sample(count, seed=seed) if given is None else list(given.values())
+    record = _record(procedure, format, seed, given)
     write = partial(_write_shape, folder, format=format, record=record, facts=procedure.facts)
-    header = ["path", *procedure.space.names, "sound", *_MEASURES, "failure"]
+    header = [COLUMNS[0], *procedure.space.names, *COLUMNS[1:]]
     try:
         rows = _resume(folder, record, vectors)
         failed: list[Build] = []
@@ -89,7 +94,8 @@ def write_samples(
                 chunk = vectors[len(rows) : len(rows) + max(_CHUNK, len(rows) // 8)]
                 builds = crew.build(chunk, give_up=not rows)
                 failed += [build for build in builds if build.failure]
-                names = [f"{procedure.name}-{i:05d}" for i in range(len(rows), len(rows) + len(chunk))]
+                numbers = range(len(rows), len(rows) + len(chunk))
+                names = [f"{procedure.name}-{i:05d}" if given is None else list(given)[i] for i in numbers]
                 rows += pool.map(write, names, builds)
                 table = io.StringIO(newline="")
                 csv.writer(table).writerows([header, *rows])
@@ -107,7 +113,9 @@ def write_samples(
     return Samples(len(written), unsound, len(rows) - len(written), failures)
 
 
-def _record(procedure: Procedure, format: str, seed: int) -> dict[str, Any]:
+def _record(
+    procedure: Procedure, format: str, seed: int, given: Mapping[str, Parameters] | None = None
+) -> dict[str, Any]:
     """What ``samples.json`` holds. The digest is not that of runs: with another value no older folder could resume."""
     return {
         "format": _FORMAT,
@@ -116,6 +124,7 @@ def _record(procedure: Procedure, format: str, seed: int) -> dict[str, Any]:
         "files": format,
         "seed": seed,
         "version": version("shapewright"),
+        **({} if given is None else {"parameters": source_digest(json.dumps(given))}),
     }
 
 

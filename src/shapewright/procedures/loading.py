@@ -5,7 +5,8 @@ the author's function would be, with these attributes:
 
 - ``__name__``: of the procedure;
 - ``__signature__``: an ``inspect.Signature`` with the annotations that Python authors write;
-- ``place``: a ``Place`` in the file, which errors about the whole name.
+- ``place``: a ``Place`` in the file, which errors about the whole name;
+- ``own_names``, where they differ: what its program calls arguments, by their names in the signature.
 
 It is called by keywords with values of the space; arguments that are held are left out. What it raises for one shape is
 Infeasible, or ProcedureError with the line of the file. The reader sets ``helpers``, the files that the file uses. The

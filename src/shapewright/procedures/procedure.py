@@ -65,6 +65,12 @@ class Procedure:
         except (TypeError, ValueError) as error:
             raise ProcedureError(str(error), self.place) from error
 
+    @property
+    def own_names(self) -> Mapping[str, str]:
+        """What the procedure's own program calls arguments that Python calls otherwise, by their names in Python."""
+        names: Mapping[str, str] = getattr(self.function, "own_names", {})
+        return names
+
     def random(self, seed: int = 0) -> Shape:
         """A shape at random parameters; the next ones in turn while these are infeasible."""
         for parameters in self.space.sample(100, seed=seed):

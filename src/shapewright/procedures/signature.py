@@ -55,6 +55,11 @@ class Signature:
         before = [arguments.pop(name) for name in self.positional[len(args) :]]
         return function(*args, *before, **arguments)
 
+    def arguments(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """What the function gets for values of the space, by the names of its arguments."""
+        complete = {**self._defaults, **values}
+        return {name: binding(complete) for name, binding in self.bindings.items()}
+
     @functools.cached_property
     def _defaults(self) -> Parameters:
         return self.space.defaults

@@ -52,6 +52,11 @@ class NodeGroup:
         return inspect.Signature([socket.parameter for socket in self.sockets])
 
     @property
+    def own_names(self) -> dict[str, str]:
+        """What people see the sockets called."""
+        return {socket.argument: socket.name for socket in self.sockets}
+
+    @property
     def place(self) -> Place:
         return Place(str(self.file), None)
 

@@ -58,6 +58,10 @@ class Model:
         return self.arguments
 
     @property
+    def own_names(self) -> Mapping[str, str]:
+        return self.variables
+
+    @property
     def place(self) -> Place:
         return Place(str(self.file), None)
 
