@@ -51,7 +51,10 @@ def test_what_a_finished_program_left_running_is_ended(tmp_path):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
-def test_a_process_that_is_told_to_end_ends_its_program_first(tmp_path):
+@pytest.mark.parametrize(("end", "status"), [(signal.SIGTERM, 128 + signal.SIGTERM), (signal.SIGKILL, -signal.SIGKILL)])
+def test_a_program_ends_with_the_process_that_runs_it(tmp_path, end, status):
+    if end == signal.SIGKILL and sys.platform != "linux":
+        pytest.skip("elsewhere a process that is killed ends nothing")
     program = (
         "from pathlib import Path\nfrom shapewright.processes.external import run_program\n"
         f"run_program(['sh', '-c', 'echo $$ > {tmp_path}/child; sleep 60'], Path({str(tmp_path)!r}))"
@@ -61,8 +64,8 @@ def test_a_process_that_is_told_to_end_ends_its_program_first(tmp_path):
         while not ((tmp_path / "child").exists() and (tmp_path / "child").read_text().strip()):
             assert time.monotonic() < deadline
             time.sleep(0.02)
-        process.terminate()
-        assert process.wait(10.0) == 128 + signal.SIGTERM
+        process.send_signal(end)
+        assert process.wait(10.0) == status
     assert gone(int((tmp_path / "child").read_text()))
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import select
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,6 +20,10 @@ from typing import IO
 
 _KEPT = 16_384
 """Bytes at the end of what a program says that are kept."""
+
+_PDEATHSIG = 1
+"""PR_SET_PDEATHSIG of <sys/prctl.h>."""
+_prctl = ctypes.CDLL(None).prctl if sys.platform == "linux" else None
 
 
 @dataclass(frozen=True)
@@ -66,7 +72,7 @@ def run_program(
             stdout=told,
             stderr=failed,
             start_new_session=True,
-            preexec_fn=partial(allow, memory_mb) if os.name == "posix" else None,
+            preexec_fn=partial(_begin, memory_mb) if os.name == "posix" else None,
         )
         try:
             with _ended_by_terminate():
@@ -74,6 +80,13 @@ def run_program(
         finally:
             _end(process)
         return Ended(None if late else process.returncode, last_lines(failed) or last_lines(told))
+
+
+def _begin(memory_mb: int | None) -> None:
+    """In the new process. On Linux it ends with the thread that waits for it, also where that is killed."""
+    if _prctl:
+        _prctl(_PDEATHSIG, signal.SIGKILL)
+    allow(memory_mb)
 
 
 def allow(memory_mb: int | None) -> None:

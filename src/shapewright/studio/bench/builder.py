@@ -11,6 +11,7 @@ import pickle
 import signal
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -78,6 +79,7 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
         answer(Failure("raised", error.message, error.place))
         return
     limit_memory(limits.memory_mb)
+    limits = replace(limits, seconds=procedure.seconds or limits.seconds)
     answer(version)
     while (values := _received(requests)) is not None:
         answer(try_build(procedure, values, limits, working))
@@ -90,7 +92,7 @@ def _received(requests: BinaryIO) -> Any:
 
 def _version(procedure: Procedure) -> Version:
     parameters = [Parameter(**to_record(p), conditional=p.when is not None) for p in procedure.space]
-    return Version(procedure.name, parameters, procedure.space.defaults)
+    return Version(procedure.name, parameters, procedure.space.defaults, procedure.seconds)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import queue
 import sys
 import threading
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +37,7 @@ class Version:
     name: str
     parameters: list[Parameter]  # as the page gets them
     defaults: Parameters
+    seconds: float | None = None  # that a shape may take, where the procedure's file says so
 
 
 @dataclass(frozen=True)
@@ -118,6 +119,7 @@ class Workshop:
         if isinstance(version, Failure):
             self._stop()
             raise version.error()
+        self._limits = replace(limits, seconds=version.seconds or limits.seconds)
         return version
 
     def _wait(self, patience: float, again: float) -> Any:

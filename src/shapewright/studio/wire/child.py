@@ -23,6 +23,8 @@ from shapewright.studio.wire.values import encode
 
 Frame = tuple[Any, bytes]
 """A message and its payload."""
+_TO_END = 0.5
+"""Seconds that a program may take to end what it runs itself."""
 _LENGTHS = struct.Struct("<II")
 
 
@@ -66,6 +68,9 @@ class Child:
             if self._leads:
                 os.killpg(self.process.pid, signal.SIGKILL)
             else:
+                self.process.terminate()  # a program of others that it runs has a group of its own, and is ended by it
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    self.process.wait(_TO_END)
                 self.process.kill()
         self._outgoing.put(None)
         return self.process.wait()
