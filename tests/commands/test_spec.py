@@ -1,8 +1,13 @@
 """What a spec says, and what is wrong with one, with its line."""
 
+import re
+from pathlib import Path
+
 import pytest
 
 from shapewright.commands import read_spec
+from shapewright.commands.entries import KEYS
+from shapewright.commands.spec import KINDS as SPEC_KEYS
 from shapewright.procedures import ProcedureError
 
 HEAD = 'run = "tool {params.json} {out.obj}"\n'
@@ -77,3 +82,13 @@ def test_what_is_wrong_is_told_with_its_key_and_line(tmp_path, text, line, says)
     assert says in str(error.value)
     assert str(tmp_path / "spec.toml") in str(error.value)
     assert (error.value.place.line if error.value.place else None) == line
+
+
+def test_the_specs_of_the_page_are_specs(tmp_path):
+    page = (Path(__file__).resolve().parents[2] / "docs" / "generators.md").read_text(encoding="utf-8")
+    (tmp_path / "cabinet.sh").write_text("")
+    command, call = (spec(tmp_path, block) for block in re.findall(r"```toml\n(.*?)```", page, re.DOTALL))
+    assert command.words[1] == str(tmp_path / "cabinet.sh") and command.entries.fixed == {"finish": "matt"}
+    assert call.target == "scene_synthesizer.procedural_assets:TableAsset" and len(call.entries.parameters) == 4
+    for key in (*KEYS, *SPEC_KEYS):
+        assert re.search(rf"`\[?{key}\b", page), key

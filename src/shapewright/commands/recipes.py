@@ -7,7 +7,7 @@ has to hold.
 
 PyTorchGeoNodes (github.com/vevenom/pytorchgeonodes, configs_shape_programs): ``params`` are nested tables with type and
 range, whose upper end an integer does not reach; ``or_dependencies`` name what has to be on, or to have a value, one of
-them; ``not_dependencies`` what has to be off.
+them; ``not_dependencies`` what has to be off. Its own program only orders its search by them.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ PLACEHOLDER = re.compile(r"\{([^{}]*)\}")
 """What is filled in for each shape."""
 PLACES = ("here", "python")
 """Placeholders of the folder of the spec, and of the Python that runs shapewright."""
-_KINDS: Mapping[str, tuple[type, ...]] = {
+KINDS: Mapping[str, tuple[type, ...]] = {
     "run": (str, list),
     "call": (str,),
     "python": (str,),
@@ -123,12 +123,12 @@ def read_spec(path: Path) -> Spec:
 
 def _check_keys(file: TomlFile) -> None:
     for key, value in file.values.items():
-        if key not in _KINDS:
-            near = difflib.get_close_matches(key, _KINDS, 1)
-            advice = f"did you mean {near[0]}?" if near else f"there are {', '.join(_KINDS)}"
+        if key not in KINDS:
+            near = difflib.get_close_matches(key, KINDS, 1)
+            advice = f"did you mean {near[0]}?" if near else f"there are {', '.join(KINDS)}"
             raise file.error((key,), f"there is no such key; {advice}")
-        if not isinstance(value, _KINDS[key]) or (isinstance(value, bool) and bool not in _KINDS[key]):
-            raise file.error((key,), f"{value!r} is not {' or '.join(_SAID[kind] for kind in _KINDS[key])}")
+        if not isinstance(value, KINDS[key]) or (isinstance(value, bool) and bool not in KINDS[key]):
+            raise file.error((key,), f"{value!r} is not {' or '.join(_SAID[kind] for kind in KINDS[key])}")
     if ("run" in file.values) == ("call" in file.values):
         message = 'say what is run: run = "tool {params.json} {out.obj}", or call = "module:function"'
         raise file.error(("call",) if "call" in file.values else (), f"{message}; one of them")
