@@ -7,7 +7,9 @@ from shapewright.feedback.ideas.hypothesis import ALL_OTHERS, Hypothesis
 from shapewright.feedback.ideas.needed_ranges import narrowed
 from shapewright.feedback.ideas.proposal import Misfit
 from shapewright.feedback.ideas.proposals import frames_of, proposals
+from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.parts.pieces import Piece
+from shapewright.feedback.parts.supports import bounds_of
 from shapewright.rules.library import bundled_rules
 
 TABLE = """from typing import Annotated
@@ -152,3 +154,37 @@ def test_a_rule_of_the_library_takes_the_box_of_the_part_in_whose_place_it_comes
     assert "def tapered_legs(size, thickness=0.12, foot=0.5):" in source and "with_tapered_legs: bool = False" in source
     assert found.ranges["tapered_legs_thickness"][:2] == (0.05, 0.3)  # as the rule says, whatever two misfits need
     assert {q.name for q in found.rule.quantities} == {"tapered_legs_thickness", "tapered_legs_foot"}
+
+
+def test_a_rule_that_is_deeper_than_the_part_it_replaces_stands_as_high_as_the_part(tmp_path):
+    chair = """from shapewright.modelling.solids import box
+
+
+@procedure
+def chair(seat: Annotated[float, Range(0.3, 0.6)] = 0.45):
+    plate = box((0.5, 0.06, 0.5), at=(0, seat - 0.03, 0)).label("seat")
+    back = box((0.5, 1 - seat, 0.04), at=(0, (1 + seat) / 2, -0.23)).label("back")
+    return plate | back | box((0.4, seat - 0.06, 0.4), at=(0, (seat - 0.06) / 2, 0)).label("legs")
+"""
+    path = tmp_path / "chair.py"
+    path.write_text("from typing import Annotated\n\nfrom shapewright import Range, procedure\n" + chair)
+    procedure = sw.load_procedure(path)
+    (rule,) = [rule for rule in bundled_rules("plans") if rule.name == "leaning_panel"]
+    several = []
+    for row, (seat, depth) in enumerate(((0.45, 0.12), (0.5, 0.14))):
+        low, high = np.array([-0.25, seat + 0.1, -0.25]), np.array([0.25, 1.0, -0.25 + depth])
+        piece = Piece("rule", low, high, rule=rule, arguments={"thickness": 0.2 + 0.1 * row})
+        change = Hypothesis(removed=("back",), pieces=(piece,), cost=900.0, before=3000.0)
+        several.append(misfit(procedure, row, change, seat=seat))
+    labels = ["seat", "back", "legs"]
+    (found,) = proposals(path.read_text(), "chair", procedure.space, several, labels)
+    names = [q.name for q in found.rule.quantities]
+    assert names == ["leaning_panel_thickness", "leaning_panel_part_thickness"]  # of the space, and of the rule
+    changed = loads(tmp_path, found)
+    for row in (0, 1):
+        (values,) = found.candidates(several[row])
+        made = changed(**changed.space.carry(values))
+        assert separate(made) == 1
+        low, high = bounds_of(made, "leaning panel")
+        assert low[1] == pytest.approx(values["seat"], abs=1e-6) and high[1] == pytest.approx(1.0, abs=1e-6)
+        assert high[2] - low[2] == pytest.approx((0.12, 0.14)[row], rel=0.05)

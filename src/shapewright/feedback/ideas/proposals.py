@@ -13,7 +13,6 @@ from shapewright.feedback.ideas.hypothesis import ALL_OTHERS, Hypothesis
 from shapewright.feedback.ideas.needed_ranges import generous
 from shapewright.feedback.ideas.proposal import Interval, Misfit, Proposal, Ranges, as_value, listed
 from shapewright.feedback.ideas.wider_ranges import wider_ranges
-from shapewright.feedback.parts.lack import overlap
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.relations import WHOLE, Frames
 from shapewright.feedback.parts.supports import bounds_of
@@ -32,7 +31,7 @@ _MOST_PIECES = 3  # of a rule, that are commonest; one more where hypotheses agr
 _COMMON, _WHOLES = 5, 3  # forms of pieces, and whole sets of pieces, that are looked at
 _SHARED = 0.25  # share of the hypotheses that a piece is in, from which on a rule makes it
 _FILLS = 0.1  # of a removed part's largest extent: how near the sides of a piece are that takes its place
-_FILLED = 0.3  # intersection over union of a rule's piece and a part, from which on it takes the part's box
+_FILLED = 0.5  # of a rule's piece and a part: intersection over union along an axis, from which on they are one there
 _INSET, _SPLAY = (0.3, 1.1), (0.6, 2.5)  # Ranges of factors to begin with
 
 
@@ -128,16 +127,20 @@ def _range(quantity: Quantity) -> Interval:
 
 
 def _in_place(pieces: Sequence[Piece], removed: Sequence[str], members: Wanted) -> list[Piece]:
-    """The pieces of a library's rule as large as the part in whose place they come, where most overlap with it much.
+    """The pieces of a library's rule as long as the part in whose place they come, along axes where most nearly are.
 
-    The author's own parameters say then how large they are.
+    The author's own parameters say then how large they are, and they touch what the part touched.
     """
     boxes = [frames_of(m.replica, removed[:1]).get(removed[0]) if removed else None for m, _ in members]
     if not pieces[0].rule or any(pieces[0].mirrored) or any(box is None for box in boxes):
         return list(pieces)
-    placed = [replace(p, low=box[0], high=box[1]) for p, box in zip(pieces, boxes, strict=True) if box is not None]
-    shared = [overlap(piece, other) for piece, other in zip(pieces, placed, strict=True)]
-    return placed if float(np.median(shared)) > _FILLED else list(pieces)
+    spans = np.array([[piece.low, piece.high] for piece in pieces])
+    others = np.array([box for box in boxes if box is not None])
+    common = np.minimum(spans[:, 1], others[:, 1]) - np.maximum(spans[:, 0], others[:, 0])
+    shared = common / (np.maximum(spans[:, 1], others[:, 1]) - np.minimum(spans[:, 0], others[:, 0]))
+    alike = np.median(shared, axis=0) > _FILLED
+    placed = np.where(alike, others, spans)
+    return [replace(piece, low=low, high=high) for piece, (low, high) in zip(pieces, placed, strict=True)]
 
 
 def _form(piece: Piece) -> tuple[object, ...]:

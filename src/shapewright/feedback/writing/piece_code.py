@@ -65,7 +65,7 @@ def piece_lines(
         asked.append(Quantity(count, tuple(float(piece.count) for piece in several), whole=True))
     filling = _FILLED.get(kind, "")
     if kind == "rule":
-        filling, more = _of_rule(several, name)
+        filling, more = _of_rule(several, name, [quantity.name for quantity in asked])
         asked += more
     if kind.startswith("slats"):
         filling = _slats(several, kind[-1], sizes["xyz".index(kind[-1])], count)
@@ -201,8 +201,11 @@ def _spokes(kind: Kind, is_round: bool, name: str, turn: str) -> list[str]:
     return [*lines, f"around = spoke{turned}.polar_array({name}_count){stretch}"]
 
 
-def _of_rule(several: Sequence[Piece], name: str) -> tuple[str, list[Quantity]]:
-    """What fills a space with a rule of the library, and its numbers; of choices those that most pieces have."""
+def _of_rule(several: Sequence[Piece], name: str, taken: Sequence[str]) -> tuple[str, list[Quantity]]:
+    """What fills a space with a rule of the library, and its numbers; of choices those that most pieces have.
+
+    taken: names of the space's own quantities.
+    """
     rule = several[0].rule
     assert rule
     filling, asked = rule.name, []
@@ -212,7 +215,9 @@ def _of_rule(several: Sequence[Piece], name: str) -> tuple[str, list[Quantity]]:
         values = [piece.arguments[parameter.name] for piece in several]
         if isinstance(parameter, Scalar | Integer):
             limits, whole = (parameter.low, parameter.high), parameter.whole
-            asked.append(Quantity(f"{name}_{parameter.name}", tuple(map(float, values)), whole, limits))
+            own = f"{name}_{parameter.name}"
+            own = f"{name}_part_{parameter.name}" if own in taken else own
+            asked.append(Quantity(own, tuple(map(float, values)), whole, limits))
             filling += f", {parameter.name}={asked[-1].name}"
         elif (usual := max(dict.fromkeys(values), key=values.count)) != parameter.default:
             filling += f", {parameter.name}={usual!r}"
