@@ -1,5 +1,6 @@
 """Assets of scene_synthesizer, unedited, with their ranges beside them."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +34,15 @@ def test_parts_keep_their_names_and_the_table_stands_upright():
     shape = table(**table.space.defaults | {"width": 1.2, "depth": 0.7, "height": 0.75})
     assert set(shape.label_names) == {"top", *(f"leg_{i}" for i in range(4))}
     np.testing.assert_allclose(shape.extent, [1.2, 0.75, 0.7])
+
+
+def test_the_same_table_comes_from_another_python(tmp_path):
+    spec = FOLDER / "table.toml"
+    elsewhere = tmp_path / "table.toml"
+    elsewhere.write_text(f'python = "{sys.executable}"\n{spec.read_text()}')
+    far, near = sw.load_procedure(elsewhere)(width=1.5), sw.load_procedure(spec)(width=1.5)
+    assert set(far.label_names) == set(near.label_names) and len(far.faces) == len(near.faces)
+    np.testing.assert_allclose(far.bounds, near.bounds, atol=1e-6)
 
 
 def test_an_asset_that_is_returned_is_a_shape():

@@ -10,6 +10,7 @@ import functools
 import importlib
 import json
 import os
+import re
 import struct
 import sys
 import traceback
@@ -53,8 +54,10 @@ def written(result: Any, out: str) -> str:
     """The file of a shape: what exports itself, vertices and faces, or the path of a file that was written."""
     if isinstance(result, str) or hasattr(result, "__fspath__"):
         return str(Path(result).absolute())
-    if hasattr(result, "as_trimesh_scene"):
-        result = result.as_trimesh_scene(use_collision_geometry=False)
+    if hasattr(result, "as_trimesh_scene"):  # an asset of scene_synthesizer, whose parts have its name before theirs
+        result.as_trimesh_scene(namespace="asset", use_collision_geometry=False).export(out)
+        Path(out).write_text(re.sub("^([og]) asset/", r"\1 ", Path(out).read_text(), flags=re.MULTILINE))
+        return out
     if hasattr(result, "export"):
         result.export(out)
         return out
