@@ -74,6 +74,21 @@ def wire():
     group.finish(group.node("GeometryNodeSwitch", solid, circle, disc, input_type="GEOMETRY"))
 
 
+def switches():
+    """Sockets that matter only at some values of others."""
+    group = Another("Switches")
+    height = group.socket("Height", FLOAT, 1.0, 0.5, 2.0)
+    drawers = group.socket("Drawers", INT, 0, 0, 4)
+    back = group.socket("Back", BOOL, False)
+    knob, panel = (group.socket(name, FLOAT, 1.0, 0.5, 2.0) for name in ("Knob", "Panel"))
+    span = group.socket("Span", FLOAT, 1.0, 0.5, 2.0)
+    some = group.node("FunctionNodeCompare", drawers, 0, data_type="INT", operation="GREATER_THAN")
+    shapes = {"Plain": group.box(height, height, height), "Wide": group.box(span, height, height)}
+    both = group.node("FunctionNodeBooleanMath", some, back, operation="OR")
+    form = group.menu("Form", "", **shapes)
+    group.finish(group.join(form, group.when(some, group.box(knob, 1, 1)), group.when(both, group.box(1, 1, panel))))
+
+
 def loose():
     """No socket of it is a parameter."""
     group = Another("Loose")
@@ -96,7 +111,7 @@ def link(folder):
 if __name__ == "__main__":
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.context.scene.unit_settings.scale_length = 0.001
-    for make in (kinds, grid, wire, loose):
+    for make in (kinds, grid, wire, switches, loose):
         make()
     folder = Path(sys.argv[-1]).resolve()
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "strange.blend"), compress=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isclose
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ import numpy as np
 
 from shapewright.procedures.blender.installed import ADVICE, words
 from shapewright.procedures.blender.sockets import Socket, sockets_of
+from shapewright.procedures.blender.usage import conditions
 from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.facts import METRES, Facts
 from shapewright.procedures.places import Place
@@ -25,6 +26,8 @@ from shapewright.shapes import Mesh
 _PROGRAM = Path(__file__).with_name("program.py")
 _NO_MEMORY = ("alloc returns null", "bad_alloc", "MemoryError")
 """What Blender says last when it gets no memory."""
+_TRIALS = 32
+"""Random values at which the rules of when a socket matters are tried."""
 _residents: dict[Path, Resident] = {}
 """The Blenders of this process, by the file that each has open: starting one takes a second."""
 
@@ -62,14 +65,22 @@ class NodeGroup:
 
     def __call__(self, **values: Any) -> Mesh:
         """Raises ProcedureError where there is no mesh, or Blender ends; MemoryError."""
-        known = {socket.argument: socket for socket in self.sockets}
-        given = {known[name].identifier: _plain(value) for name, value in values.items()}
-        request = {"group": self.group, "values": given, "memory": memory_left()}
-        answer = _asked(lambda: _resident(self.file).ask(request), self.place)
+        answer = self._ask(values, {"memory": memory_left()})
         if empty := answer.header.get("empty"):
             said = "; ".join(answer.header["warnings"])
             raise ProcedureError(_empty(*empty) + (f". Blender says: {said}" if said else ""), self.place)
         return _mesh(answer)
+
+    def idle(self, values: Mapping[str, Any]) -> set[str]:
+        """The sockets that change nothing at these values, as far as Blender tells. Raises ProcedureError."""
+        at_rest = self._ask(values, {}).header["idle"]
+        return {socket.argument for socket in self.sockets if socket.identifier in at_rest}
+
+    def _ask(self, values: Mapping[str, Any], others: Mapping[str, Any]) -> Answer:
+        known = {socket.argument: socket.identifier for socket in self.sockets}
+        given = {known[name]: _plain(value) for name, value in values.items()}
+        request = {"group": self.group, "values": given, **others}
+        return _asked(lambda: _resident(self.file).ask(request), self.place)
 
 
 def read(path: Path, name: str | None) -> Procedure:
@@ -97,9 +108,20 @@ def read(path: Path, name: str | None) -> Procedure:
         raise ProcedureError(
             f"no socket of the group {chosen!r} is a parameter ({why}). Set Min and Max of its sockets: N, Group", place
         )
-    made = Procedure(NodeGroup(path, chosen, sockets), facts=_facts(inside, place))
+    group = NodeGroup(path, chosen, sockets)
+    group = replace(group, sockets=_with_rules(group))
+    made = Procedure(group, facts=_facts(inside, place))
     made.helpers = tuple(sorted(Path(file).resolve() for file in inside["files"]))
     return made
+
+
+def _with_rules(group: NodeGroup) -> tuple[Socket, ...]:
+    """Its sockets, with what is known of when they matter."""
+    free = Procedure(group)
+    vectors = free.space.sample(_TRIALS, seed=0)
+    trials = [free.signature.call(dict, (), values) for values in vectors]
+    rules = conditions(group.sockets, group.idle, trials)
+    return tuple(replace(socket, when=rules.get(socket.argument)) for socket in group.sockets)
 
 
 def _facts(inside: Mapping[str, Any], place: Place) -> Facts:

@@ -30,8 +30,6 @@ _BUILT_IN = {"sharp_face", "freestyle_face"}
 """Boolean attributes of faces that Blender makes itself."""
 _OLDEST = (4, 2, 0)
 """The oldest version that was tried."""
-_DIGITS = 7
-"""Digits of Blender's numbers: .14 comes as 0.14000000059604645."""
 
 
 def main() -> None:
@@ -42,21 +40,23 @@ def main() -> None:
     threading.Thread(target=_listen, args=(requests, waiting), daemon=True).start()
     _end_with_parent()
     answers.write(HELLO)
-    _one_core()
+    _run_on(one=True)
     file: File | None = None
-    limited = False
     while True:
         request = waiting.get()
-        answer: dict[str, Any]
-        arrays: dict[str, Any] = {}
+        answer, arrays = dict[str, Any](), dict[str, Any]()
         try:
             if "open" in request:
                 file = File(request["open"])
                 answer = file.inside
             else:
                 assert file is not None
-                limited = limited or _limit_memory(request["memory"])
-                answer, arrays = file.built(request["group"], request["values"])
+                bench = file.bench(request["group"])
+                if "memory" in request:
+                    _limit_memory(request["memory"])
+                    answer, arrays = bench.built(request["values"])
+                else:
+                    answer = {"idle": bench.idle(request["values"])}
         except ModuleNotFoundError as error:
             answer = {"lost": "module", "name": error.name}
         except MemoryError:
@@ -64,8 +64,8 @@ def main() -> None:
         except Exception as error:  # noqa: BLE001 - told to the process that asks
             answer = {"error": f"{type(error).__name__}: {error}"}
         _send(answers, answer, arrays)
-        if "group" in request:
-            _all_cores()
+        if "memory" in request:
+            _run_on(one=False)
 
 
 class File:
@@ -99,11 +99,11 @@ class File:
         }
         self._open: dict[str, _Bench] = {}
 
-    def built(self, name: str, values: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-        """A group's mesh with these values, by identifiers of sockets."""
+    def bench(self, name: str) -> _Bench:
+        """The place where a group is built."""
         if name not in self._open:
             self._open[name] = _Bench(self.bpy, self.bpy.data.node_groups[name])
-        return self._open[name].built(values)
+        return self._open[name]
 
 
 class _Bench:
@@ -120,10 +120,8 @@ class _Bench:
         tree = bpy.data.node_groups.new("shapewright", "GeometryNodeTree")
         for way in ("INPUT", "OUTPUT"):
             tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
-        entry, self.node, real, end = map(
-            tree.nodes.new,
-            ("NodeGroupInput", "GeometryNodeGroup", "GeometryNodeRealizeInstances", "NodeGroupOutput"),
-        )
+        kinds = ("NodeGroupInput", "GeometryNodeGroup", "GeometryNodeRealizeInstances", "NodeGroupOutput")
+        entry, self.node, real, end = map(tree.nodes.new, kinds)
         self.node.node_tree = group
         if begin := next((socket for socket in self.node.inputs if socket.type == "GEOMETRY"), None):
             tree.links.new(entry.outputs[0], begin)
@@ -142,12 +140,21 @@ class _Bench:
         scene.collection.objects.link(self.holder)
         self.layer = scene.view_layers[0]
 
-    def built(self, values: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    def _set(self, values: dict[str, Any]) -> None:
         for identifier, value in values.items():
             socket = self.sockets[identifier]
             now = socket.default_value
             if (list(now) if isinstance(value, list) else now) != value:
                 socket.default_value = value
+
+    def idle(self, values: dict[str, Any]) -> list[str]:
+        """The sockets that change nothing at these values, by identifier; before version 4.5 none is known."""
+        self._set(values)
+        return [name for name, socket in self.sockets.items() if getattr(socket, "is_inactive", False)]
+
+    def built(self, values: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The group's mesh at these values, by identifiers of sockets."""
+        self._set(values)
         self.layer.update()
         evaluated = self.holder.evaluated_get(self.layer.depsgraph)
         mesh = evaluated.data
@@ -187,7 +194,8 @@ def _items(tree: Any, way: str) -> list[Any]:
 
 
 def _short(value: Any) -> Any:
-    return float(f"{value:.{_DIGITS}g}") if isinstance(value, float) else value
+    """In the seven digits that Blender's numbers have: .14 comes as 0.14000000059604645."""
+    return float(f"{value:.7g}") if isinstance(value, float) else value
 
 
 def _options(item: Any) -> list[str]:
@@ -272,28 +280,20 @@ def _end_with_parent() -> None:
         ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
-def _one_core() -> None:
-    """Blender starts threads for one core: shapes are built side by side, each in a process."""
+def _run_on(one: bool) -> None:
+    """One core, on which Blender starts its threads: shapes are built side by side. Then those of the parent."""
     if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))} if one else os.sched_getaffinity(os.getppid()))
 
 
-def _all_cores() -> None:
-    """Those of the process that asks, once the threads are there."""
-    if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, os.sched_getaffinity(os.getppid()))
-
-
-def _limit_memory(megabytes: int | None) -> bool:
-    """The address space that may still be mapped. Returns whether there is a limit."""
-    if megabytes is None:
-        return False
+def _limit_memory(megabytes: int | None) -> None:
+    """The address space that may be mapped from the first limit on."""
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 
-        mapped = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
-        resource.setrlimit(resource.RLIMIT_AS, (mapped + megabytes * 2**20, resource.RLIM_INFINITY))
-    return True
+        if megabytes is not None and resource.getrlimit(resource.RLIMIT_AS)[0] == resource.RLIM_INFINITY:
+            mapped = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+            resource.setrlimit(resource.RLIMIT_AS, (mapped + megabytes * 2**20, resource.RLIM_INFINITY))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from types import GenericAlias
 from typing import Annotated, Any, Literal
 
-from shapewright.parameters import Range, Seed
+from shapewright.parameters import Range, Seed, When
+from shapewright.parameters.expressions import Expression
 
 _UNLIMITED = {"int": 2.0**31 - 1.0, "float": 3.4e38, "vector": 3.4e38}
 """From here on a limit is none: what Blender shows where nobody set one, the greatest number of its kind."""
@@ -33,6 +34,7 @@ class Socket:
         high: its maximum.
         options: of a menu.
         hidden: whether the modifier hides it.
+        when: says when it matters.
     """
 
     argument: str
@@ -46,6 +48,7 @@ class Socket:
     high: float | None
     options: tuple[str, ...]
     hidden: bool
+    when: Expression | None = None
 
     @property
     def held(self) -> str | None:
@@ -85,13 +88,13 @@ class Socket:
             return Annotated[int, Seed()]
         if self.held:
             return _TYPES.get(self.kind, inspect.Parameter.empty)
-        if self.kind == "menu":
-            return Annotated[Literal[self.options], self.said]
-        if self.kind == "bool":
-            return Annotated[bool, self.said]
-        assert self.low is not None and self.high is not None
-        one: Any = _TYPES.get(self.kind) or GenericAlias(tuple, (float,) * len(self.default))
-        return Annotated[one, Range(self.low, self.high), self.said]
+        limits = [Range(self.low, self.high, when=self.when)] if self.low is not None and self.high is not None else []
+        extras = [*limits, *([When(self.when)] if self.when else []), self.said]
+        kinds = {"menu": Literal[self.options], "vector": GenericAlias(tuple, (float,) * len(_values(self.default)))}
+        spelled: Any = kinds.get(self.kind) or _TYPES[self.kind]
+        for extra in extras:
+            spelled = Annotated[spelled, extra]
+        return spelled
 
     @property
     def _inside(self) -> Any:
