@@ -105,4 +105,4 @@ def test_a_variable_whose_name_is_none_in_python_gets_an_underscore(tmp_path, mo
     file = tmp_path / "plate.scad"
     file.write_text(f"{name} = 1; // [0:3]\ncube({name});")
     plate = sw.load_procedure(file)
-    assert plate.space.names == (f"_{name}",) and plate.function.variables == {f"_{name}": name}
+    assert plate.space.names == (f"_{name}",) and plate.own_names == {f"_{name}": name}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,6 +10,10 @@ from typing import Any
 from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.openscad.messages import failure
 from shapewright.procedures.places import Place
+from shapewright.processes.external import run_program
+from shapewright.processes.limits import memory_left
+
+_FLAT = "not a 3D object"
 
 
 def built(program: str, file: Path, values: Mapping[str, Any]) -> Any:
@@ -23,22 +26,17 @@ def built(program: str, file: Path, values: Mapping[str, Any]) -> Any:
     with tempfile.TemporaryDirectory() as folder:
         made = Path(folder) / "shape.off"
         given = [f"-D{name}={_spelt(value)}" for name, value in values.items()]
-        ran = subprocess.run(
-            [program, "-o", str(made), *given, str(file)],
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            check=False,
-        )
-        lines = ran.stderr.splitlines()
-        wrong = next((line for line in lines if line.startswith("ERROR: ")), None)
-        if wrong:
+        ended = run_program([program, "-o", str(made), *given, str(file)], file.parent, memory_mb=memory_left())
+        if wrong := next((line for line in ended.said if line.startswith("ERROR: ")), None):
             raise failure(file, wrong)
-        if ran.returncode or not made.is_file():
-            said = next((line for line in reversed(lines) if line.strip()), f"it ended with status {ran.returncode}")
+        if any(_FLAT in line for line in ended.said):
+            advice = "it is 2D, and the program openscad makes no drawings here: pip install 'shapewright[openscad]'"
+            raise ProcedureError(advice, Place(str(file), None))
+        if ended.status or not made.is_file():
+            said = ended.last_words or f"it ended with status {ended.status}"
             raise ProcedureError(f"openscad: {said}", Place(str(file), None))
-        return trimesh.load(made, force="mesh", process=False)
+        mesh: Any = trimesh.load(made, force="mesh", process=False)
+        return mesh.vertices, mesh.faces
 
 
 def _spelt(value: Any) -> str:

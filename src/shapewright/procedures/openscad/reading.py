@@ -39,14 +39,14 @@ class Model:
         file: the file.
         name: of the procedure.
         arguments: its parameters; those without annotation are held.
-        variables: the variable of each parameter whose name is none in Python.
+        own_names: what the file calls the parameters whose name is none in Python.
         stamp: changes when the file does, or one that it uses.
     """
 
     file: Path
     name: str
     arguments: inspect.Signature
-    variables: Mapping[str, str]
+    own_names: Mapping[str, str]
     stamp: str
 
     @property
@@ -58,10 +58,6 @@ class Model:
         return self.arguments
 
     @property
-    def own_names(self) -> Mapping[str, str]:
-        return self.variables
-
-    @property
     def place(self) -> Place:
         return Place(str(self.file), None)
 
@@ -70,7 +66,7 @@ class Model:
 
         Raises Infeasible where an assertion fails, ProcedureError with the line of the file that is at fault.
         """
-        named = {self.variables.get(name, name): value for name, value in values.items()}
+        named = {self.own_names.get(name, name): value for name, value in values.items()}
         program = shutil.which(_PROGRAM)
         if find_spec(_PACKAGE) is None and program:
             return built(program, self.file, named)
@@ -99,8 +95,8 @@ def read(path: Path, name: str | None) -> Procedure:
     if not any(setting.hint for setting in found):
         raise ProcedureError(_no_space(found), place(path, found[0].line) if found else Place(str(path), None))
     items = [_parameter(path, setting) for setting in found]
-    variables = {item.name: setting.name for item, setting in zip(items, found, strict=True)}
-    strange = {python: own for python, own in variables.items() if python != own}
+    pairs = ((item.name, setting.name) for item, setting in zip(items, found, strict=True))
+    strange = {python: own for python, own in pairs if python != own}
     used = tuple(sorted(set(_used(path)) - {path}))
     stamp = source_digest(repr([(file, file.read_bytes()) for file in (path, *used)]))
     _check(path, stamp)
