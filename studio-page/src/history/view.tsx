@@ -2,7 +2,7 @@
 
 import { useComputed, useSignal, useSignalEffect } from "@preact/signals";
 import { complain, tell } from "../state/notices";
-import { procedure, runs } from "../state/studio";
+import { procedure, project, runs } from "../state/studio";
 import { Button, Empty, Select } from "../ui/controls";
 import { duration } from "../ui/numbers";
 import type { Comparison, Run } from "../wire/messages";
@@ -100,7 +100,7 @@ function RunFacts({ run }: { run: Run }) {
         <Button
           icon="reset"
           disabled={here}
-          title={here ? "The procedure is this one" : "Put this run's procedure back as procedure.py"}
+          title={here ? "The procedure is this one" : `Put this run's procedure back as ${project.value.procedure}`}
           onClick={() => void restore()}
         >
           Go back to its procedure

@@ -62,7 +62,13 @@ export interface EditorEvents {
   onSave: () => void;
 }
 
-export function createEditor(parent: HTMLElement, text: string, { onText, onSave }: EditorEvents): Editor {
+/** name: of the file; Python's colours are for Python. */
+export function createEditor(
+  parent: HTMLElement,
+  name: string,
+  text: string,
+  { onText, onSave }: EditorEvents,
+): Editor {
   const nonce = document.querySelector<HTMLMetaElement>("meta[name=csp-nonce]")?.content ?? "";
   const view = new EditorView({
     parent,
@@ -80,10 +86,10 @@ export function createEditor(parent: HTMLElement, text: string, { onText, onSave
         highlightActiveLineGutter(),
         highlightSelectionMatches(),
         lintGutter(),
-        python(),
+        name.endsWith(".py") ? python() : [],
         syntaxHighlighting(colours),
         look,
-        EditorView.contentAttributes.of({ "aria-label": "procedure.py" }),
+        EditorView.contentAttributes.of({ "aria-label": name }),
         keymap.of([
           { key: "Mod-s", preventDefault: true, run: () => (onSave(), true) },
           { key: "Escape", run: (open) => (open.contentDOM.blur(), true) },

@@ -20,7 +20,7 @@ export function EditorPane() {
     import("./codemirror")
       .then(({ createEditor }) => {
         if (gone || !place.current) return;
-        const editor = createEditor(place.current, text.value, {
+        const editor = createEditor(place.current, project.value.procedure, text.value, {
           onText: (next) => (text.value = next),
           onSave: () => void save(),
         });
