@@ -64,6 +64,8 @@ def test_a_spec_says_what_is_run_and_of_what(tmp_path):
         (HEAD + "[parameters]\nkind = { choices = ['a'] }\n", 3, "a list of two values or more"),
         (HEAD + "[parameters]\nkind = { choices = ['a', 'b'], default = 'c' }\n", 3, "the default 'c'"),
         (HEAD + "[parameters]\nlid = { bool = true, default = 1 }\n", 3, "1 is not true or false"),
+        (HEAD + "[parameters]\nn = { range = [1, 3], integer = 'yes' }\n", 3, "'yes' is not true or false"),
+        (HEAD + "[parameters]\nlegs.width = { range = [1, 3] }\n", 3, "there is no such key"),
         (HEAD + ONE + "lid = { bool = true, when = 'widht > 1' }\n", 4, "there is no parameter 'widht'"),
         (HEAD + ONE + "lid = { bool = true, when = 'open()' }\n", 4, "call has no place in it"),
         (HEAD + ONE + '"a b" = { range = [0, 1] }\na_b = { range = [0, 1] }\n', 5, "the same name as 'a b'"),

@@ -73,6 +73,9 @@ def identifier(name: str) -> str:
 def _parameter(own: str, name: str, table: Mapping[str, Any]) -> inspect.Parameter:
     if unknown := next((key for key in table if key not in KEYS), None):
         raise EntryError(own, unknown, f"there is no such key; there are {', '.join(sorted(KEYS))}")
+    for key in ("bool", "integer", "log"):
+        if not isinstance(table.get(key, False), bool):
+            raise EntryError(own, key, f"{table[key]!r} is not true or false")
     kinds = [key for key in ("range", "choices", "bool") if key in table and table[key] is not False]
     if len(kinds) != 1:
         raise EntryError(own, None, "say one of: range = [low, high], choices = [...], bool = true, fixed = value")

@@ -89,30 +89,26 @@ def read_spec(path: Path) -> Spec:
     said = file.values
     _check_keys(file)
     key = "run" if "run" in said else "call"
-    recipe, recipe_file = _recipe(file)
+    recipe, recipe_files = _recipe(file)
     entries = _entries(file, recipe)
     words = _words(file) if key == "run" else ()
-    python = _found(path.parent, said["python"]) if "python" in said else None
-    helpers = [path.parent / word for word in words if _beside(path.parent, word)]
-    if key == "call" and (module := path.parent / f"{said['call'].partition(':')[0].replace('.', '/')}.py").is_file():
-        helpers.append(module)
     spec = Spec(
-        file,
-        said.get("name", re.sub(r"\W", "_", path.stem)),
-        words if said.get("shell") else tuple(_found(path.parent, word) for word in words),
-        said.get("call", ""),
-        python,
-        entries,
-        _facts(file),
-        said.get("shell", False),
-        said.get("out"),
-        said.get("infeasible"),
-        said.get("seconds"),
-        said.get("memory"),
-        {name: str(value) for name, value in said.get("environment", {}).items()},
-        (*(recipe.constraints if recipe else ()), *_constraints(file, entries)),
-        file.place((key,)),
-        tuple(dict.fromkeys([*helpers, *([recipe_file] if recipe_file else [])])),
+        file=file,
+        name=said.get("name", re.sub(r"\W", "_", path.stem)),
+        words=words if said.get("shell") else tuple(_found(path.parent, word) for word in words),
+        target=said.get("call", ""),
+        python=_found(path.parent, said["python"]) if "python" in said else None,
+        entries=entries,
+        facts=_facts(file),
+        shell=said.get("shell", False),
+        out=said.get("out"),
+        infeasible=said.get("infeasible"),
+        seconds=said.get("seconds"),
+        memory_mb=said.get("memory"),
+        environment={name: str(value) for name, value in said.get("environment", {}).items()},
+        constraints=(*(recipe.constraints if recipe else ()), *_constraints(file, entries)),
+        place=file.place((key,)),
+        helpers=tuple(dict.fromkeys([*_named(path.parent, words, said.get("call", "")), *recipe_files])),
     )
     if key == "run":
         _check_placeholders(spec)
@@ -137,16 +133,22 @@ def _check_keys(file: TomlFile) -> None:
             raise file.error((key,), f"{file.values[key]} is not above 0")
 
 
-def _recipe(file: TomlFile) -> tuple[Recipe | None, Path | None]:
-    """The ranges that stand in another file."""
+def _named(home: Path, words: Sequence[str], target: str) -> list[Path]:
+    """The files beside the spec that it names: words of the program, or the module that is called."""
+    module = home / f"{target.partition(':')[0].replace('.', '/')}.py"
+    return [home / word for word in words if _beside(home, word)] + ([module] if target and module.is_file() else [])
+
+
+def _recipe(file: TomlFile) -> tuple[Recipe | None, list[Path]]:
+    """The ranges that stand in another file, and that file."""
     key = "ranges" if "ranges" in file.values else "parameters"
     named = file.values.get(key)
     if not isinstance(named, str):
-        return None, None
+        return None, []
     path = (file.path.parent / named).resolve()
     if not path.is_file():
         raise file.error((key,), f"there is no file {path}")
-    return read_recipe(path), path
+    return read_recipe(path), [path]
 
 
 def _entries(file: TomlFile, recipe: Recipe | None) -> Entries:
