@@ -45,8 +45,9 @@ def recovered(path: str, count: int, seed: int) -> None:
                 parameter.high - parameter.low
             )
     replicated = f"{len(iteration.replicated)} of {len(iteration)}"
-    mae, f1 = np.mean(list(errors.values())), np.mean(list(scores.values()))
-    print(f"| {generator.name} | {mae:.3f} | {f1:.2f} | {replicated} | {seconds:.0f} s |", flush=True)
+    mae = f"{np.mean(list(errors.values())):.3f}" if errors else "-"
+    f1 = f"{np.mean(list(scores.values())):.2f}" if scores else "-"
+    print(f"| {generator.name} | {mae} | {f1} | {replicated} | {seconds:.0f} s |", flush=True)
     print("   ", {name: round(value, 4) for name, value in (errors | scores).items()}, flush=True)
 
 

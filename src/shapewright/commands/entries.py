@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import inspect
 import keyword
 import re
@@ -72,7 +73,9 @@ def identifier(name: str) -> str:
 
 def _parameter(own: str, name: str, table: Mapping[str, Any]) -> inspect.Parameter:
     if unknown := next((key for key in table if key not in KEYS), None):
-        raise EntryError(own, unknown, f"there is no such key; there are {', '.join(sorted(KEYS))}")
+        near = difflib.get_close_matches(unknown, KEYS, 1)
+        advice = f"did you mean {near[0]}?" if near else f"there are {', '.join(sorted(KEYS))}"
+        raise EntryError(own, unknown, f"there is no such key; {advice}")
     for key in ("bool", "integer", "log"):
         if not isinstance(table.get(key, False), bool):
             raise EntryError(own, key, f"{table[key]!r} is not true or false")
