@@ -20,6 +20,7 @@ from shapewright.cli.main import app
 from shapewright.procedures import ProcedureError
 from shapewright.procedures.blender import node_group
 from shapewright.procedures.blender.installed import SETTING, words
+from shapewright.procedures.forms import written
 from shapewright.runs.helpers import helpers_of
 
 if not (os.environ.get(SETTING) or find_spec("bpy")):
@@ -232,6 +233,25 @@ def test_builds_leave_no_data_blocks_behind(tmp_path):
     )
     counts = {line for line in blender(script).splitlines() if line.startswith("blocks")}
     assert len(counts) == 1
+
+
+def test_a_script_makes_the_same_shapes_in_blender(shelf, tmp_path):
+    chosen = {"wide": {"width": 1.3, "feet": "Plinth"}, "it's high": {"height": 1.9, "boards": 2, "back": False}}
+    sets = {name: shelf.space.defaults | values for name, values in chosen.items()}
+    shown = (
+        "\nbpy.context.view_layer.update()\ngraph = bpy.context.evaluated_depsgraph_get()\n"
+        "for thing in bpy.context.scene.objects:\n"
+        "    print('made', thing.name, len(thing.evaluated_get(graph).data.polygons), "
+        "*(round(d, 4) for d in thing.evaluated_get(graph).dimensions), sep='|')\n"
+    )
+    program = tmp_path / "program.py"
+    opening = f"import bpy\nbpy.ops.wm.open_mainfile(filepath={str(MODELS / 'shelf.blend')!r}, load_ui=False)\n"
+    program.write_text(opening + written(shelf, sets, "blender") + shown)
+    made = [line.split("|") for line in blender(program).splitlines() if line.startswith("made")]
+    sizes = {name: [float(d) for d in size] for _, name, _, *size in made}
+    for name, values in sets.items():
+        x, z, y = shelf(**values).extent
+        assert sizes[name] == pytest.approx([x, y, z], abs=1e-3)
 
 
 def test_a_run_keeps_the_file(shelf):

@@ -41,7 +41,8 @@ def seconds_of(text: str) -> float:
 ProcedureArgument = Annotated[
     Path,
     typer.Argument(
-        help="The Python file with the @procedure; file.py:name for one of several. Or a .scad or spec.toml."
+        help="The Python file with the @procedure; file.py:name for one of several. "
+        "Or a .scad, a .blend:Group or a spec.toml."
     ),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object as the last line of standard output.")]

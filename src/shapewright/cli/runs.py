@@ -99,7 +99,9 @@ def parameters(
     names: Annotated[list[str] | None, typer.Argument(help="References of the run.  [dim]default: all[/]")] = None,
     form: Annotated[
         Form,
-        typer.Option(help="A call in Python, the arguments of openscad, its parameter sets as JSON, or a table."),
+        typer.Option(
+            help="A call in Python, arguments of openscad, a script for Blender, parameter sets as JSON, or a table."
+        ),
     ] = "csv",
     json: Json = False,
 ) -> None:

@@ -1,4 +1,4 @@
-"""Parameters as other programs and people write them: a call in Python, OpenSCAD's -D and parameter sets, a CSV."""
+"""Parameters as other programs and people write them: a call in Python, OpenSCAD's -D and sets, Blender, a CSV."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from enum import Enum
 from typing import Any, Literal, TypeAlias
 
 from shapewright.parameters import Parameters
+from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.procedure import Procedure
 
-Form: TypeAlias = Literal["python", "openscad", "json", "csv"]
+Form: TypeAlias = Literal["python", "openscad", "blender", "json", "csv"]
 SETS, VERSION = "parameterSets", {"fileFormatVersion": "1"}
 """Keys of a file of OpenSCAD's parameter sets, as its Customizer writes them."""
 
@@ -22,8 +23,9 @@ def written(procedure: Procedure, sets: Mapping[str, Parameters], form: Form) ->
     """Parameters by the name of their shape, as text of some lines.
 
     python: a call of the procedure's function for each, its name behind it. openscad: the arguments of ``openscad`` for
-    each, its name above them. json: parameter sets of OpenSCAD's Customizer. csv: a row for each, with a header.
-    Parameters have the names that the procedure's own program knows.
+    each, its name above them. blender: a script that makes an object for each. json: parameter sets of OpenSCAD's
+    Customizer. csv: a row for each, with a header. Parameters have the names that the procedure's own program knows.
+    Raises ProcedureError for a script of Blender where the procedure is no node group.
     """
     if form == "csv":
         table = io.StringIO(newline="")
@@ -32,6 +34,13 @@ def written(procedure: Procedure, sets: Mapping[str, Parameters], form: Form) ->
         csv.writer(table, lineterminator="\n").writerows([["name", *(_own(procedure, key) for key in names)], *rows])
         return table.getvalue()
     arguments = {name: procedure.signature.arguments(values) for name, values in sets.items()}
+    if form == "blender":
+        script = getattr(procedure.function, "script", None)
+        if script is None:
+            raise ProcedureError(
+                "the form blender is for node groups of .blend files; use another one", procedure.place
+            )
+        return str(script(arguments))
     if form == "python":
         calls = [f"{procedure.name}({_keywords(given)})  # {name}" for name, given in arguments.items()]
         return "".join(f"{call}\n" for call in calls)

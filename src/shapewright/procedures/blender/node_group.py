@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from shapewright.procedures.blender.installed import ADVICE, words
+from shapewright.procedures.blender.script import script
 from shapewright.procedures.blender.sockets import Socket, sockets_of
 from shapewright.procedures.blender.usage import conditions
 from shapewright.procedures.errors import ProcedureError
@@ -70,6 +71,10 @@ class NodeGroup:
             said = "; ".join(answer.header["warnings"])
             raise ProcedureError(_empty(*empty) + (f". Blender says: {said}" if said else ""), self.place)
         return _mesh(answer)
+
+    def script(self, shapes: Mapping[str, Mapping[str, Any]]) -> str:
+        """A script for Blender that makes an object for each of these values of sockets, by the shapes' names."""
+        return script(self.group, self.sockets, shapes)
 
     def idle(self, values: Mapping[str, Any]) -> set[str]:
         """The sockets that change nothing at these values, as far as Blender tells. Raises ProcedureError."""
