@@ -65,6 +65,13 @@ def test_what_it_does_not_take_is_told_with_its_line(here):
         sw.load_procedure(written(here, SPEC.replace("width", "breadth")))
 
 
+def test_what_it_needs_and_does_not_get_is_told(here):
+    path = written(here, SPEC.replace("wedges:Wedge", "wedges:edge"))
+    (here / "wedges.py").write_text("def edge(width, height, corners, depth): ...\n")
+    with pytest.raises(ProcedureError, match=r"spec.toml:1: .*missing a required argument: 'depth'; say its range"):
+        sw.load_procedure(path)
+
+
 @pytest.mark.parametrize(
     ("target", "says"),
     [

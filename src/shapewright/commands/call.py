@@ -59,14 +59,23 @@ def called(spec: Spec) -> Callable[..., Any]:
     except Exception as error:
         raise ProcedureError(_advice(error), spec.place) from error
     with contextlib.suppress(ValueError):  # of a function in C that has no signature
-        taken = inspect.signature(function)
-        for name in (*spec.entries.names.values(), *spec.entries.fixed):
-            try:
-                taken.bind_partial(**{name: None})
-            except TypeError as error:
-                message = f"{spec.target} takes no such argument; it takes {', '.join(taken.parameters)}"
-                raise spec.file.error(("parameters", name), message) from error
+        _check(spec, inspect.signature(function))
     return function
+
+
+def _check(spec: Spec, taken: inspect.Signature) -> None:
+    """Raises ProcedureError where the function does not take a parameter, or wants another one."""
+    names = [*spec.entries.names.values(), *spec.entries.fixed]
+    for name in names:
+        try:
+            taken.bind_partial(**{name: None})
+        except TypeError as error:
+            message = f"{spec.target} takes no such argument; it takes {', '.join(taken.parameters)}"
+            raise spec.file.error(("parameters", name), message) from error
+    try:
+        taken.bind(**dict.fromkeys(names))
+    except TypeError as error:
+        raise ProcedureError(f"{spec.target}: {error}; say its range, or its value", spec.place) from error
 
 
 @functools.cache
