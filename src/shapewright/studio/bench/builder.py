@@ -92,7 +92,7 @@ def _received(requests: BinaryIO) -> Any:
 
 def _version(procedure: Procedure) -> Version:
     parameters = [Parameter(**to_record(p), conditional=p.when is not None) for p in procedure.space]
-    return Version(procedure.name, parameters, procedure.space.defaults, procedure.seconds)
+    return Version(procedure.name, parameters, procedure.space.defaults, procedure.facts, procedure.seconds)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Generic, TypeVar
 
+from shapewright.procedures import Facts
 from shapewright.references.errors import UnreadableError
 from shapewright.references.reading import Readers
 from shapewright.references.reference import Reference
@@ -46,14 +47,16 @@ class Shelf(Generic[Item]):
 
 
 class Gallery:
-    """The references of a listing.
+    """The references of a listing, as they stand beside what a procedure builds.
 
     cache: a folder for their pictures, None for none.
     readers: read them.
+    facts: of the procedure: its axes are those of files that say nothing of theirs, and sizes may count.
     """
 
-    def __init__(self, listed: Listing, cache: Path | None, readers: Readers) -> None:
+    def __init__(self, listed: Listing, cache: Path | None, readers: Readers, facts: Facts | None = None) -> None:
         self.listed = listed
+        self.facts = facts or Facts()
         self._readers = readers
         self._cache = cache
         if cache:  # once, not with every picture: the folder holds those of all projects
@@ -75,7 +78,8 @@ class Gallery:
             (read,) = self._readers.read(as_views([source]))  # a photograph is no drawing
             if isinstance(read, UnreadableError):
                 raise reason
-        return self._shelf.put(slug, without_extras(read, Settings()))
+        read = without_extras(read.standing(self.facts.up) if self.facts.up != "y" else read, Settings())
+        return self._shelf.put(slug, read.sized(self.facts.metres) if self.facts.size == "given" else read)
 
     def view(self, slug: str) -> Reference:
         """The same reference as an object in a picture. Raises as ``[]`` does."""
@@ -85,9 +89,9 @@ class Gallery:
         return read
 
     def picture(self, slug: str) -> bytes:
-        """PNG of a reference, kept in the cache from now on. Raises as ``[]`` does."""
+        """PNG of a reference. As its file has it, it is kept in the cache from now on. Raises as ``[]`` does."""
         drawn = thumbnail(self[slug].shape, PICTURE)
-        kept = kept_picture(self._cache, self.listed.sources[slug]) if self._cache else None
+        kept = kept_picture(self._cache, self.listed.sources[slug]) if self._cache and self.facts.up == "y" else None
         if kept:
             kept.parent.mkdir(parents=True, exist_ok=True)
             with whole_file(kept) as partial:

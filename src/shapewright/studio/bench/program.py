@@ -7,7 +7,6 @@ first; pictures and sweeps over the whole collection are done in between, shape 
 from __future__ import annotations
 
 import threading
-from collections import deque
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -15,15 +14,18 @@ from typing import Any, BinaryIO
 
 from shapewright.judging.judge import target_of
 from shapewright.judging.target import Target
+from shapewright.procedures import Facts
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.reading import Readers
 from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.splats import discs
 from shapewright.rendering.thumbnails import thumbnail
+from shapewright.search.sizes import likeness
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Points, Shape, Views
 from shapewright.studio.bench import messages, shape_messages
 from shapewright.studio.bench.gallery import Gallery, Shelf, in_turn, shape_bytes
+from shapewright.studio.bench.inbox import Inbox
 from shapewright.studio.bench.residual_colours import ResidualColours
 from shapewright.studio.bench.sweep import Sweep
 from shapewright.studio.bench.workshop import Broken, Workshop
@@ -36,57 +38,6 @@ from shapewright.studio.wire.requests import Evaluate
 from shapewright.studio.wire.values import Slug, Values
 
 _MEMORY = 24 * 2**20
-
-
-class Inbox:
-    """Filled by one thread, emptied by another.
-
-    Of evaluations only each client's newest counts; they come before fetches, all other requests before them. A new
-    procedure sets ``interrupt``, so that nobody waits for the old one; taking it up clears that.
-    """
-
-    def __init__(self, interrupt: threading.Event) -> None:
-        self._interrupt = interrupt
-        self._arrived = threading.Condition()
-        self._live: dict[int, messages.Live] = {}
-        self._others: deque[messages.Request] = deque()
-
-    def put(self, request: messages.Request) -> None:
-        with self._arrived:
-            if isinstance(request, messages.Live):
-                self._live.pop(request.client, None)
-                self._live[request.client] = request
-            else:
-                if isinstance(request, messages.Load):
-                    self._others = deque(other for other in self._others if not isinstance(other, messages.Load))
-                self._others.append(request)
-            if isinstance(request, messages.Load | messages.End):
-                self._interrupt.set()
-            self._arrived.notify()
-
-    @property
-    def waiting(self) -> bool:
-        """Whether there is a request."""
-        return bool(self._live or self._others)
-
-    @property
-    def outdated(self) -> bool:
-        """Whether what is being answered is no longer what anyone waits for."""
-        return bool(self._live) or any(
-            isinstance(request, messages.Load | messages.End) for request in list(self._others)
-        )
-
-    def take(self, wait: bool) -> messages.Request | None:
-        """The next request; without one wait for it, or return None."""
-        with self._arrived:
-            while wait and not self.waiting:
-                self._arrived.wait()
-            if self._live and (not self._others or isinstance(self._others[0], messages.Fetch)):
-                return self._live.pop(next(iter(self._live)))
-            request = self._others.popleft() if self._others else None
-            if isinstance(request, messages.Load):
-                self._interrupt.clear()
-            return request
 
 
 class Bench:
@@ -115,7 +66,10 @@ class Bench:
                 case messages.References():
                     self._list(request)
                 case messages.Pictures():
-                    self._tasks["pictures"] = self._draw(request.slugs)
+                    turned = self._gallery.facts.up != "y"  # none that is kept stands so
+                    self._tasks["pictures"] = self._draw(
+                        list(self._gallery.listed.sources) if turned else request.slugs
+                    )
                 case messages.First():
                     self._first = request.slugs
                 case messages.Load():
@@ -151,7 +105,15 @@ class Bench:
             listed = listing(request.origin)
         except CollectionError:  # the server lists the references too, and reports it to the author
             listed = Listing({}, {})
-        self._gallery = Gallery(listed, self._cache, self._readers)
+        self._gallery = Gallery(listed, self._cache, self._readers, self._gallery.facts)
+
+    def _stand(self, facts: Facts) -> None:
+        """Have the references stand as a procedure with these facts builds."""
+        before = self._gallery
+        self._gallery = Gallery(before.listed, self._cache, self._readers, facts)
+        self._targets = Shelf(_MEMORY, _bytes)
+        if facts.up != before.facts.up:
+            self._tasks["pictures"] = self._draw(list(before.listed.sources))
 
     def _draw(self, slugs: list[Slug]) -> Iterator[None]:
         for slug in in_turn([slug for slug in slugs if slug in self._gallery.listed.sources], lambda: self._first):
@@ -170,12 +132,16 @@ class Bench:
         except Broken as error:
             self._send(messages.Unusable(load=request.load, problem=error.problem))
         else:
-            self._send(messages.Loaded(load=request.load, **vars(version)))
+            if version.facts != self._gallery.facts:
+                self._stand(version.facts)
+            space, defaults = version.parameters, version.defaults
+            self._send(messages.Loaded(load=request.load, name=version.name, parameters=space, defaults=defaults))
 
     def _sweep(self, request: messages.SweepOrder) -> None:
         if self._workshop.open:
+            looked_at = request.sweep, request.items, lambda: self._first
             self._tasks["sweep"] = Sweep(
-                request.sweep, request.items, lambda: self._first, self._root, self._workshop, self._target, self._send
+                *looked_at, self._root, self._workshop, self._target, self._same, self._send
             ).run()
 
     def _target(self, slug: Slug) -> Target | None:
@@ -185,6 +151,11 @@ class Bench:
             return known or self._targets.put(slug, target_of(self._gallery[slug].shape, self._settings, self._cache))
         except (KeyError, UnreadableError):
             return None
+
+    def _same(self, slug: Slug, replica: Shape) -> float:
+        """How like the sizes of reference and replica are; 1 where proportions count alone."""
+        extent = self._gallery[slug].extent
+        return likeness(replica, extent) if extent else 1.0
 
     def _view(self, slug: Slug) -> Target | None:
         """The target of a picture as one of an object; None for one that cannot be read so."""
@@ -232,7 +203,8 @@ class Bench:
             return
         if target and isinstance(target.shape, Drawing) and isinstance(replica, Mesh):
             target = self._view(slug)
-        answer(shape_messages.verdict_message(target, replica, number, slug))
+        same = self._same(slug, made.shape) if target else 1.0
+        answer(shape_messages.verdict_message(target, replica, number, slug, same))
         if not request.residuals or self._inbox.outdated:
             return
         if target is None or not isinstance(target.shape, Mesh) or not isinstance(replica, Mesh):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -87,12 +88,15 @@ def path(geometry: Any) -> str:
     return "".join("M" + "L".join(f"{x:g} {y:g}" for x, y in ring[:-1].tolist()) + "Z" for ring in rings)
 
 
-def verdict_message(target: Target | None, replica: Shape, number: int, slug: Slug) -> VerdictMessage:
+def verdict_message(
+    target: Target | None, replica: Shape, number: int, slug: Slug, same: float = 1.0
+) -> VerdictMessage:
     """What can be measured of a replica, and where it differs; whoever knows the cuts says its grade.
 
-    target: None for a reference that cannot be read. number: of the evaluation.
+    target: None for a reference that cannot be read. number: of the evaluation. same: how like the sizes are.
     """
     evidence = target.evidence(replica) if target else Evidence(math.nan)
+    evidence = replace(evidence, value=evidence.value * same)
     measures = target.measures(replica, fidelity=evidence.value) if target else Measures()
     sides = {side: [message_of(Piece, region) for region in getattr(evidence, side)[:MOST]] for side in SIDES}
     return message_of(VerdictMessage, measures, id=number, slug=slug, measures=measures.by_name(), **sides)

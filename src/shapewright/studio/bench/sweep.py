@@ -8,6 +8,7 @@ from pathlib import Path
 
 from shapewright.judging.target import Target
 from shapewright.rendering.thumbnails import thumbnail
+from shapewright.shapes import Shape
 from shapewright.studio.bench.gallery import Shelf, in_turn, shape_bytes
 from shapewright.studio.bench.messages import Measured, News, SweepEnded, Swept
 from shapewright.studio.bench.workshop import Built, Workshop
@@ -31,6 +32,7 @@ class Sweep:
     root: Path  # folder that problems name files relative to
     workshop: Workshop
     target: Callable[[str], Target | None]  # what replicas are measured against; None where it cannot be read
+    same: Callable[[str, Shape], float]  # how like its size is to the reference's, by what its fidelity is multiplied
     send: Callable[[News, bytes], None]  # takes an answer and its payload
 
     def run(self) -> Iterator[None]:
@@ -59,7 +61,8 @@ class Sweep:
             target = self.target(slug)
             if target and again.build.shape is not None:
                 replica = again.build.shape.normalised()
-                distance, fidelity = target.nearest(replica)[0], target.fidelity(replica)
+                distance = target.nearest(replica)[0]
+                fidelity = target.fidelity(replica) * self.same(slug, again.build.shape)
                 self.send(Measured(sweep=self.number, slug=slug, fidelity=fidelity, distance=distance), b"")
             yield
         self.send(SweepEnded(sweep=self.number, given_up=False), b"")

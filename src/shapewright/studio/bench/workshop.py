@@ -14,7 +14,7 @@ from typing import Any
 from shapewright.building.outcomes import Build, Failure
 from shapewright.building.process import no_answer
 from shapewright.parameters import Parameters, Value
-from shapewright.procedures import ProcedureError
+from shapewright.procedures import Facts, ProcedureError
 from shapewright.processes.limits import Limits, crash, too_long
 from shapewright.processes.worker import SINGLE_THREADED
 from shapewright.studio.wire.child import Child, Frame
@@ -37,6 +37,7 @@ class Version:
     name: str
     parameters: list[Parameter]  # as the page gets them
     defaults: Parameters
+    facts: Facts
     seconds: float | None = None  # that a shape may take, where the procedure's file says so
 
 
