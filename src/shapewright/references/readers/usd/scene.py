@@ -50,9 +50,8 @@ def read_usd(path: Path, _: bytes) -> Scene:
     except ImportError as error:
         raise UnreadableError("USD, which needs usd-core: pip install 'shapewright[usd]'") from error
     with _quiet():
-        layer = check_layers(Sdf, path)
         try:
-            stage = Usd.Stage.Open(layer, Usd.Stage.LoadAll)
+            stage = Usd.Stage.Open(check_layers(Sdf, path), Usd.Stage.LoadAll)
             time = _first_time(Usd, stage)
             _pose(Usd, UsdSkel, stage, time)
             found = _Found()
