@@ -10,6 +10,20 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
+_BESIDE = 64
+"""Rows that are taken as one: numpy goes ten times as fast along rows of 192 numbers as along rows of 3."""
+
+
+def ends(points: Floats) -> Floats:
+    """(2, D): the least and the greatest number of each column of points (N, D), N at least 1."""
+    width, even = points.shape[1], len(points) // _BESIDE * _BESIDE
+    wide = points[:even].reshape(-1, _BESIDE * width)
+
+    def most(pick: np.ufunc) -> Floats:
+        parts = [pick.reduce(wide, axis=0).reshape(-1, width)] if even else []
+        return np.asarray(pick.reduce(np.concatenate([*parts, points[even:]]), axis=0))
+
+    return np.stack([most(np.minimum), most(np.maximum)])
 
 
 @dataclass(frozen=True)

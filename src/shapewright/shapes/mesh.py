@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from shapewright.shapes.arrays import Bytes, Floats, Ints, Transform
+from shapewright.shapes.arrays import Bytes, Floats, Ints, Transform, ends
 
 if TYPE_CHECKING:
     from shapewright.shapes.soundness import Soundness
@@ -66,8 +66,7 @@ class Mesh:
             raise ValueError("a mesh without faces has no bounds")
         used = np.zeros(len(self.vertices), dtype=bool)
         used[self.faces] = True
-        corners = self.vertices[used]
-        return np.stack([corners.min(axis=0), corners.max(axis=0)])
+        return ends(self.vertices if used.all() else self.vertices[used])
 
     @property
     def extent(self) -> Floats:

@@ -193,7 +193,8 @@ def sound(vertices: Floats, faces: Ints, parts: Parts | None = None) -> tuple[Me
     used[faces if everywhere else faces[finite]] = True
     whole = bool(used.all() and finite.all())
     mesh = Mesh(vertices, faces) if whole else Mesh(vertices[used], (np.cumsum(used) - 1)[faces[finite]])
-    size = float(np.ptp(mesh.vertices, axis=0).max()) if np.abs(mesh.vertices).max() < _LARGEST else np.inf
+    bounds = mesh.bounds
+    size = float((bounds[1] - bounds[0]).max()) if np.abs(bounds).max() < _LARGEST else np.inf
     if not np.finfo(np.float64).tiny < size < np.inf:
         raise UnreadableError("all its triangles lie at one point" if size < 1.0 else "too large to measure")
     if not any(_seen(mesh, size, start) for start in range(0, len(mesh.faces), _AT_ONCE)):
