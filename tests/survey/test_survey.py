@@ -38,6 +38,22 @@ def test_what_stays_is_told_as_doubtful(folder):
     assert facts["a"].odd[0] == "perhaps a ground 'Plane'"
 
 
+def test_axes_are_found_as_advice_where_the_author_does_not_tell_them(tmp_path):
+    for number in range(3):
+        chair = scenes.chair()
+        for part in chair.values():
+            part.apply_scale((1.0, 1.0 + 0.1 * number, 1.0))
+            part.apply_transform(np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]]))
+        scenes.write(tmp_path / "in" / f"{number}.ply", chair)
+    survey = sw.check(tmp_path / "in")
+    assert all(facts.seems.startswith("z up, ") and facts.up == "y" for facts in survey.facts)
+    assert all(reference.orientation.up == "y" for reference in survey.references)
+    assert not any(facts.seems for facts in sw.check(tmp_path / "in", up="z", front="-y").facts)
+    result = CliRunner().invoke(app, ["check", str(tmp_path / "in"), "--out", str(tmp_path / "page")])
+    assert "z up" in result.stdout and "--up auto turns" in result.stdout
+    assert "seems to have z up" in (tmp_path / "page" / "check.html").read_text()
+
+
 def test_points_and_drawings_have_facts_too():
     points = sw.Points(np.random.default_rng(0).random((100, 3)))
     (facts,) = sw.check(sw.Collection.of({"scan": points})).facts

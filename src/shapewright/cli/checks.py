@@ -43,14 +43,17 @@ def check(
 def _print(survey: Survey, page: Path) -> None:
     from shapewright.survey.page import dimensions
 
-    table = Table("reference", "format", "triangles", "pieces", "size", "up, front", "", box=None, header_style="dim")
+    columns = ("reference", "format", "triangles", "pieces", "size", "up, front", "seems", "")
+    table = Table(*columns, box=None, header_style="dim")
     for facts in survey.facts:
         told = [*(f"[yellow]{escape(words)}[/]" for words in facts.odd), *map(escape, facts.notes)]
         axes = f"{facts.up}, {facts.front}" if facts.up else ""
         numbers = ("" if number is None else f"{number:,}" for number in (facts.count, facts.pieces))
         size = dimensions(facts.size, facts.unit)
-        table.add_row(escape(facts.name), facts.format, *numbers, size, axes, "\n".join(told))
+        table.add_row(escape(facts.name), facts.format, *numbers, size, axes, facts.seems, "\n".join(told))
     out.print(table)
+    if any(facts.seems for facts in survey.facts):
+        out.print("\n[dim]--up auto turns references as they seem to stand[/]", highlight=False)
     for title, some in (("could not be read", survey.skipped), ("left out", survey.references.left_out)):
         if some:
             out.print(f"\n[yellow]{len(some)} {title}:[/]", highlight=False)

@@ -35,6 +35,8 @@ class Facts:
         up: the axis of the file that points up; empty for drawings.
         front: the axis that points to the front; empty for drawings.
         axes_by: who says so.
+        seems: axes that it seems to have instead, as "z up, -y front", where that is likely enough and its author does
+            not tell them; else empty. Nothing is turned for it.
         closed: whether every edge of a mesh has a face on either side; None for others.
         names: of its parts.
         notes: what was left out.
@@ -56,6 +58,7 @@ class Facts:
     names: tuple[str, ...]
     notes: tuple[str, ...]
     odd: tuple[str, ...]
+    seems: str = ""
 
     def record(self) -> dict[str, Any]:
         """As plain values for JSON."""

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from shapewright.references import Collection
+from shapewright.references import Collection, Reference
+from shapewright.references.standing import stood
 from shapewright.settings import Preparing, Settings
 from shapewright.shapes import Drawing, Mesh, Points
 from shapewright.storage import printable
@@ -76,6 +77,7 @@ def check(
         references = Collection.load(references, up=up, front=front)
     chosen = prepared(references, how, threads)
     known = in_threads(lambda reference: facts(reference, how), chosen.references, threads)
+    seems = [_seeming(*pair) for pair in zip(chosen, stood(chosen.references, threads=threads), strict=True)]
     like: tuple[Duplicate, ...] = ()
     unlike: tuple[Outlier, ...] = ()
     if all(isinstance(reference.shape, Mesh | Points | Drawing) for reference in chosen):
@@ -84,5 +86,14 @@ def check(
     told: dict[str, list[str]] = {each.name: [each.words] for each in like}
     for name, words in [*((each.name, each.words) for each in unlike), *other_sizes(known).items()]:
         told.setdefault(name, []).append(words)
-    known = [replace(each, odd=(*told.get(each.name, ()), *each.odd)) for each in known]
+    known = [
+        replace(each, odd=(*told.get(each.name, ()), *each.odd), seems=words)
+        for each, words in zip(known, seems, strict=True)
+    ]
     return Survey(chosen, tuple(known), like, unlike)
+
+
+def _seeming(given: Reference, found: Reference) -> str:
+    """The axes of a reference as they were found, in words; empty where it stands so."""
+    axes = found.orientation
+    return "" if axes == given.orientation else f"{axes.up} up, {axes.front} front"
