@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import io
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -99,7 +100,7 @@ def parsed(file: Path, stamp: str) -> Program:
     """
     said = io.StringIO()
     try:
-        with contextlib.redirect_stdout(said):  # the parser prints what is wrong
+        with _uncollected(), contextlib.redirect_stdout(said):  # the parser prints what is wrong
             tree = getASTfromFile(str(file))
             nodes, _, scope = resolve_use_scopes(tree, str(file), print) if tree is not None else ([], [], None)
     except FileNotFoundError as error:
@@ -111,6 +112,21 @@ def parsed(file: Path, stamp: str) -> Program:
         if isinstance(node, Assignment):
             given.setdefault(node.name.name, []).append(node)
     return Program(nodes, scope, given)
+
+
+@contextlib.contextmanager
+def _uncollected() -> Iterator[None]:
+    """Without garbage collection, which would look through a large library's nodes again and again as they are made.
+
+    A file that includes BOSL2 is read in 1.5 to 2 s of CPU then, in place of 4.2.
+    """
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if running:
+            gc.enable()
 
 
 def _not_there(file: Path, said: str) -> tuple[str, Place]:
