@@ -51,10 +51,7 @@ def test_what_a_finished_program_left_running_is_ended(tmp_path):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
-@pytest.mark.parametrize(("end", "status"), [(signal.SIGTERM, 128 + signal.SIGTERM), (signal.SIGKILL, -signal.SIGKILL)])
-def test_a_program_ends_with_the_process_that_runs_it(tmp_path, end, status):
-    if end == signal.SIGKILL and sys.platform != "linux":
-        pytest.skip("elsewhere a process that is killed ends nothing")
+def test_a_process_that_is_told_to_end_ends_its_program_first(tmp_path):
     program = (
         "from pathlib import Path\nfrom shapewright.processes.external import run_program\n"
         f"run_program(['sh', '-c', 'echo $$ > {tmp_path}/child; sleep 60'], Path({str(tmp_path)!r}))"
@@ -64,17 +61,29 @@ def test_a_program_ends_with_the_process_that_runs_it(tmp_path, end, status):
         while not ((tmp_path / "child").exists() and (tmp_path / "child").read_text().strip()):
             assert time.monotonic() < deadline
             time.sleep(0.02)
-        process.send_signal(end)
-        assert process.wait(10.0) == status
+        process.terminate()
+        assert process.wait(10.0) == 128 + signal.SIGTERM
     assert gone(int((tmp_path / "child").read_text()))
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="the limit of address space holds on Linux")
 def test_memory_beyond_its_limit_is_refused_to_the_program(tmp_path):
-    hungry = [sys.executable, "-c", "b = bytearray(600 * 2**20)"]
+    hungry = [sys.executable, "-c", "import time; time.sleep(0.1); b = bytearray(600 * 2**20)"]
     assert run_program(hungry, tmp_path).status == 0
     ended = run_program(hungry, tmp_path, memory_mb=400)
     assert ended.status == 1 and "MemoryError" in ended.last_words
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the limit of memory holds on Linux")
+def test_the_limit_of_the_process_itself_is_not_its_programs_and_stays(tmp_path):
+    inside = (
+        "import resource, sys\nfrom pathlib import Path\nfrom shapewright.processes.external import run_program\n"
+        "from shapewright.processes.limits import limit_memory\n"
+        "limit_memory(300)\nbefore = resource.getrlimit(resource.RLIMIT_DATA)\n"
+        "ended = run_program([sys.executable, '-c', 'b = bytearray(900 * 2**20)'], Path('.'))\n"
+        "assert before == resource.getrlimit(resource.RLIMIT_DATA) and before[0] != before[1]\nsys.exit(ended.status)\n"
+    )
+    assert run_program([sys.executable, "-c", inside], tmp_path) == Ended(0, ())
 
 
 def test_a_program_that_is_not_there_cannot_be_started(tmp_path):

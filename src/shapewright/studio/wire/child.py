@@ -14,6 +14,7 @@ import struct
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable, Mapping
 from typing import IO, Any, BinaryIO
 
@@ -25,6 +26,8 @@ Frame = tuple[Any, bytes]
 """A message and its payload."""
 _TO_END = 0.5
 """Seconds that a program may take to end what it runs itself."""
+_STEP = 0.01
+_KILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has only the latter, which kills
 _LENGTHS = struct.Struct("<II")
 
 
@@ -63,17 +66,28 @@ class Child:
         self._outgoing.put((message, payload))
 
     def end(self) -> int:
-        """End the program, and what it started in its group, at once; returns the exit status."""
+        """End the program, and what it started in its group, at once; returns the exit status.
+
+        Programs of others that these run have groups of their own. Told to end, these end them.
+        """
         with contextlib.suppress(ProcessLookupError, PermissionError):
-            if self._leads:
-                os.killpg(self.process.pid, signal.SIGKILL)
-            else:
-                self.process.terminate()  # a program of others that it runs has a group of its own, and is ended by it
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    self.process.wait(_TO_END)
-                self.process.kill()
+            self._signal(signal.SIGTERM)
+            deadline = time.monotonic() + _TO_END
+            while time.monotonic() < deadline:
+                self.process.poll()
+                self._signal(0)  # raises where none is left
+                time.sleep(_STEP)
+            self._signal(_KILL)
         self._outgoing.put(None)
         return self.process.wait()
+
+    def _signal(self, number: int) -> None:
+        if self._leads:
+            os.killpg(self.process.pid, number)
+        elif self.process.poll() is None:
+            self.process.send_signal(number)
+        else:
+            raise ProcessLookupError
 
     def _listen(self, heard: Callable[[Frame | None], object], messages: Any) -> None:
         assert self.process.stdout is not None
