@@ -6,7 +6,7 @@ import inspect
 import keyword
 import re
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -97,7 +97,7 @@ def read(path: Path, name: str | None) -> Procedure:
     items = [_parameter(path, setting) for setting in found]
     pairs = ((item.name, setting.name) for item, setting in zip(items, found, strict=True))
     strange = {python: own for python, own in pairs if python != own}
-    used = tuple(sorted(set(_used(path)) - {path}))
+    used = tuple(sorted(_used(path)))
     stamp = source_digest(repr([(file, file.read_bytes()) for file in (path, *used)]))
     _check(path, stamp)
     model = Model(path, name or path.stem, inspect.Signature(items), strange, stamp)
@@ -135,7 +135,7 @@ def _facts(path: Path, text: Text) -> Facts:
 
 
 def _no_space(found: Sequence[Setting]) -> str:
-    like = found[0] if found else None
+    like = next((one for one in found if isinstance(one.value, int | float)), None)
     shown = f"{like.name} = {like.value}; // [low:high]" if like else "width = 80; // [40:160]"
     held = f" (held are {', '.join(one.name for one in found[:_SHOWN])})" if found else ""
     return f"nothing in this file has an annotation that says which values it may have{held}; write one: {shown}"
@@ -151,15 +151,16 @@ def _check(path: Path, stamp: str) -> None:
         raise ProcedureError(f"{path}: OpenSCAD files need an evaluator: pip install 'shapewright[openscad]'")
 
 
-def _used(path: Path, known: frozenset[Path] = frozenset()) -> Iterator[Path]:
-    """The file, and what it includes, uses and imports from its folder, and what these do."""
-    yield path
-    try:
-        names = Text.of(path.read_text("utf-8")).files if path.suffix.lower() == ".scad" else ()
-    except (OSError, UnicodeDecodeError):
-        return
-    known |= {path}
-    for name in names:
-        file = (path.parent / name).resolve()
-        if file.is_file() and file not in known:
-            yield from _used(file, known)
+def _used(path: Path) -> set[Path]:
+    """What a file includes, uses and imports from its folder, and what these do."""
+    found, news = {path}, [path]
+    while news:
+        file = news.pop()
+        try:
+            names = Text.of(file.read_text("utf-8")).files if file.suffix.lower() == ".scad" else ()
+        except (OSError, UnicodeDecodeError):
+            continue
+        beside = {other for name in names if (other := (file.parent / name).resolve()).is_file()} - found
+        found |= beside
+        news += beside
+    return found - {path}
