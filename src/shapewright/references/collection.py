@@ -107,6 +107,10 @@ class Collection:
         found = sources.find(origins, keep=steps) if auto else sources.find(origins, up, front, steps)
         if pictures == "views":
             found = as_views(found)
+        left_out = {one.name: "left out by the manifest" for one in found if one.switches.leave_out}
+        found = [one for one in found if not one.switches.leave_out]
+        if not found:
+            raise CollectionError(f"{os.fspath(origins[0])} leaves out all its files; leave fewer out")
         files_read = []
         with Readers() as readers:
             results = readers.read(found)
@@ -126,7 +130,9 @@ class Collection:
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
         again = tuple(str(Path(origin).expanduser().absolute()) for origin in origins)
         up = AUTO if auto else up
-        whole = cls(tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front, steps, pictures)
+        whole = cls(
+            tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front, steps, pictures, left_out
+        )
         return whole.stood() if auto else whole
 
     @classmethod

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from shapewright.references import sources
 from shapewright.references.errors import UnreadableError
+from shapewright.references.manifests.rows import Switches
 from shapewright.references.orientation import QUARTER_TURNS, AxesBy, Orientation
 from shapewright.references.readers import formats as files
 from shapewright.references.scans.cleaning import cleaned
@@ -42,6 +43,7 @@ class Reference:
         extent: the longest side that its replicas are to have, in the procedure's unit; None where proportions count
             alone.
         part_of: the name of the reference that it is one of several objects of; None for a whole file.
+        switches: what a manifest says of its file alone.
     """
 
     name: str
@@ -55,6 +57,7 @@ class Reference:
     extent: float | None = None
     part_of: str | None = None
     finding: Finding | None = None
+    switches: Switches = field(default_factory=Switches)
 
     @cached_property
     def digest(self) -> str:
@@ -147,7 +150,7 @@ def read_reference(source: sources.Source) -> Reference:
     orientation = Orientation.of(found.up) if found.up and by_format else source.orientation
     by: AxesBy = "author" if source.by_author else "format" if by_format else "default"
     reference = normalised(source.name, source.place, found.shape, orientation, found.notes, by, source.keep)
-    return replace(reference, unit=found.unit)
+    return replace(reference, unit=source.switches.unit or found.unit, switches=source.switches)
 
 
 def normalised(

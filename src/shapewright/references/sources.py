@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import csv
 import difflib
 import glob
-import io
 import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeAlias
 
 from shapewright.references.archives import is_archive, stem, unpacked
 from shapewright.references.errors import CollectionError, UnreadableError
+from shapewright.references.manifests.rows import Switches, rows_of
 from shapewright.references.orientation import Orientation
 from shapewright.references.other_kinds import refusal
 from shapewright.references.readers.formats import CLOUDS, EXTENSIONS, MESHES
@@ -52,6 +51,7 @@ class Source:
         view: whether a picture is one of an object; else it is a drawing.
         mask: a picture of which part of it is the object, white where that is; None where nobody says.
         object: the object that it shows, which other pictures may show as well; None where it is alone.
+        switches: what a manifest says of it alone.
     """
 
     name: str
@@ -65,6 +65,7 @@ class Source:
     view: bool = False
     mask: Path | None = None
     object: str | None = None
+    switches: Switches = field(default_factory=Switches)
 
     @property
     def place(self) -> Path:
@@ -78,10 +79,11 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None, kee
     A folder gives the files in it and in all folders below, but those that this program wrote there: runs and samples.
     Beside meshes pictures are textures and previews, and are left out. A ``.zip`` or ``.tar`` file, packed or not, is
     read as a folder. A pattern is a glob, ``**`` included. A ``.csv`` file is a manifest with a column ``path``,
-    relative to the manifest, and if wanted the columns ``name``, ``up``, ``front`` and ``object``; for an empty cell
-    the argument holds. Hidden files are left out. Shapes of a kind that is not read have their refusal; other files are
-    left out. A name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj`` (ShapeNet). Where
-    names clash the path takes its place. Raises CollectionError where there is nothing to read.
+    relative to the manifest, and if wanted the columns ``name``, ``up``, ``front``, ``object`` and those of
+    ``Switches``; for an empty cell the argument holds. Hidden files are left out. Shapes of a kind that is not read
+    have their refusal; other files are left out. A name is the file's stem, or the shape's id in
+    ``<id>/models/model_normalized.obj`` (ShapeNet). Where names clash the path takes its place. Raises CollectionError
+    where there is nothing to read.
     """
     default, by_author = Orientation.of(up, front), is_authors(up, front)
     if not origins:
@@ -101,7 +103,10 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None, kee
     places = [Path(printable(one.place)) for one in sources]
     names = _unique([printable(one.name) for one in sources], places)
     steps = kept(keep)
-    named = (replace(source, name=name, keep=steps) for source, name in zip(sources, names, strict=True))
+    named = (
+        replace(one, name=name, keep=steps if one.switches.keep is None else one.switches.keep)
+        for one, name in zip(sources, names, strict=True)
+    )
     return sorted(named, key=lambda source: natural_key(source.name))
 
 
@@ -216,27 +221,16 @@ def _in_pattern(pattern: Path, default: Orientation) -> list[Source]:
 
 
 def _in_manifest(manifest: Path, up: str, front: str | None) -> list[Source]:
-    text = manifest.read_text(encoding="utf-8-sig", errors="replace")
-    header, _, _ = text.partition("\n")
-    rows = csv.reader(io.StringIO(text, newline=""), delimiter=max(",;\t", key=header.count))
-    columns = [cell.strip().lower() for cell in next(rows, [])]
-    if "path" not in columns:
-        raise CollectionError(f"{manifest} has no column 'path'; its first line has {', '.join(columns) or 'none'}")
     sources: list[Source] = []
-    for row in rows:
-        cells = {column: cell.strip() for column, cell in zip(columns, row, strict=False)}
-        if not any(cells.values()):
-            continue
-        if not cells.get("path"):
-            raise CollectionError(f"{manifest}, line {rows.line_num}: no path")
-        path = manifest.parent / cells["path"]
+    for row in rows_of(manifest):
+        path, cells = manifest.parent / row.path, row.cells
         try:
             orientation = Orientation.of(cells.get("up") or up, cells.get("front") or front)
         except CollectionError as error:
             raise CollectionError(f"{path}, as the manifest lists it: {error}") from error
         said = is_authors(up, front) or bool(cells.get("up") or cells.get("front"))
         name, shown = cells.get("name") or _stem(path), cells.get("object") or None
-        sources.append(Source(name, path, orientation, by_author=said, object=shown))
+        sources.append(Source(name, path, orientation, by_author=said, object=shown, switches=row.switches))
     if not sources:
         raise CollectionError(f"{manifest} lists no files; give each a line with its path")
     return sources

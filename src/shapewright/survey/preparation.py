@@ -70,6 +70,8 @@ def leading(references: Collection, like: Sequence[Duplicate]) -> Collection:
 
 
 def _prepared(reference: Reference, how: Preparing) -> Iterator[Reference]:
+    own = {word: asked for word in ("drop", "split") if (asked := getattr(reference.switches, word)) is not None}
+    how = replace(how, **own) if own else how
     if not isinstance(reference.shape, Mesh) or not (how.dropped or how.split != "off"):
         yield reference
         return
