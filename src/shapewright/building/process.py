@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import linecache
 import threading
+from dataclasses import replace
 from typing import Any
 
 from shapewright.building.outcomes import Build, Failure
@@ -39,7 +41,7 @@ class WorkerProcess:
         stop: ends the wait; the worker is then lost.
         """
         answer: list[Build] | Loss = self._worker.ask(parameters, self._patience, stop) or too_long(self.limits)
-        return self._lost(answer) if isinstance(answer, Loss) else answer
+        return self._lost(answer) if isinstance(answer, Loss) else [_with_line(build) for build in answer]
 
     def load(self, payload: bytes) -> None:
         """Build shapes of another procedure from now on. Raises ProcedureError; the worker is then lost."""
@@ -65,6 +67,15 @@ class WorkerProcess:
         self._worker.stop()
         if self._printed:
             self._printed.close()
+
+
+def _with_line(build: Build) -> Build:
+    """The text of the line at which a build failed, where only this process has it: that of a notebook's cell."""
+    place = build.failure and build.failure.place
+    if build.failure is None or not place or place.text or not place.line:
+        return build
+    text = linecache.getline(place.file, place.line).strip() or None
+    return replace(build, failure=replace(build.failure, place=replace(place, text=text)))
 
 
 def no_answer(seconds: float) -> Failure:

@@ -38,6 +38,7 @@ def sample(
     ] = None,
     seed: Seed = Settings.seed,
     workers: Workers = None,
+    verbose: Annotated[bool, typer.Option("--verbose", help="Show all that the procedure prints.")] = False,
     json: Json = False,
 ) -> None:
     """Write random shapes of a procedure, or those that a file lists, and a table of their parameters and soundness."""
@@ -57,6 +58,7 @@ def sample(
             workers,
             lambda done, total: listen(Progress("sample", done, total)),
             given,
+            verbose,
         )
     if not samples.shapes:
         raise ProcedureError(f"none of {count} shapes could be built: {samples.failures}")

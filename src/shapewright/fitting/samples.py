@@ -73,10 +73,11 @@ def write_samples(
     workers: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     given: Mapping[str, Parameters] | None = None,
+    shown: bool = False,
 ) -> Samples:
     """Write shapes at ``count`` random parameter vectors and a manifest of these with the soundness of each shape.
 
-    given: parameters by the name of their file, in place of random ones.
+    given: parameters by the name of their file, in place of random ones. shown: see ``Workers``.
 
     A folder that holds the first samples of the same procedure, seed and format is resumed. Drawings are written as
     SVG; they have no soundness. Raises RunError when the folder holds something else or cannot be written (what is
@@ -86,13 +87,19 @@ def write_samples(
     record = _record(procedure, format, seed, given)
     write = partial(_write_shape, folder, format=format, record=record, facts=procedure.facts)
     header = [COLUMNS[0], *procedure.space.names, *COLUMNS[1:]]
+    rows: list[list[str]] = []
+
+    def step(done: int, _: int) -> None:
+        if progress:
+            progress(len(rows) + done, len(vectors))
+
     try:
         rows = _resume(folder, record, vectors)
         failed: list[Build] = []
-        with Workers(procedure, workers) as crew, ThreadPoolExecutor(workers or cores()) as pool:
+        with Workers(procedure, workers, shown=shown) as crew, ThreadPoolExecutor(workers or cores()) as pool:
             while len(rows) < len(vectors):
                 chunk = vectors[len(rows) : len(rows) + max(_CHUNK, len(rows) // 8)]
-                builds = crew.build(chunk, give_up=not rows)
+                builds = crew.build(chunk, step, give_up=not rows)
                 failed += [build for build in builds if build.failure]
                 numbers = range(len(rows), len(rows) + len(chunk))
                 names = [f"{procedure.name}-{i:05d}" if given is None else list(given)[i] for i in numbers]
@@ -100,8 +107,6 @@ def write_samples(
                 table = io.StringIO(newline="")
                 csv.writer(table).writerows([header, *rows])
                 write_file(folder / MANIFEST, table.getvalue())
-                if progress:
-                    progress(len(rows), len(vectors))
     except OSError as error:
         raise RunError(
             f"{folder}: cannot be written: {error.strerror or error}; the shapes in its manifest are whole: "

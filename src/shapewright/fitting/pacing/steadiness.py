@@ -11,6 +11,7 @@ from itertools import islice
 import numpy as np
 
 from shapewright.building import Build, Workers
+from shapewright.procedures import is_foreign
 from shapewright.procedures.randomness import Chance, chances
 from shapewright.progress import Notice
 from shapewright.shapes import Mesh, Shape
@@ -37,10 +38,12 @@ def unsteady(crew: Workers, builds: Sequence[Build]) -> Notice | None:
         return None
     text = f"the same parameters gave another shape, {differing} of {len(first)} times, so what is found cannot be "
     text += "built again, and the same seed gives other results"
-    return Notice("stochastic", f"{text}. {_why(suspected)}")
+    return Notice("stochastic", f"{text}. {_why(suspected, is_foreign(crew.procedure.path))}")
 
 
-def _why(suspected: Sequence[Chance]) -> str:
+def _why(suspected: Sequence[Chance], foreign: bool) -> str:
+    if foreign:
+        return "Give whatever it draws at random a fixed seed, or one that is a parameter."
     if not suspected:
         return f"Perhaps it draws at random: {_WAYS_OUT['random']}."
     chance = suspected[0]

@@ -25,6 +25,8 @@ _PROBED = 16
 """Samples that are built anew after an edit, besides: at least."""
 _PROBED_MOST = 48
 """And at most, where parameters have many classes."""
+_PROGRAM = ".toml"
+"""Suffix of procedures that another program builds, whose text is not known here: each run builds these samples."""
 
 Key: TypeAlias = tuple[Value, ...]
 
@@ -53,7 +55,7 @@ class Stock:
             digest, builds = read(self._path)
             names = list(procedure.space.names)
             self._kept = {_key(build.parameters): build for build in builds if list(build.parameters) == names}
-            self._same = digest == text_digest(procedure)
+            self._same = digest == text_digest(procedure) and procedure.path.suffix != _PROGRAM
 
     def fresh(self, vectors: Sequence[Parameters], progress: Callable[[int, int], None] | None = None) -> list[Build]:
         """Build the first samples of a run, and forget what was kept where it is not the same any more.
