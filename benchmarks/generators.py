@@ -1,9 +1,11 @@
 """Whether known parameters come back: references that a generator made with another seed, written as STL without names.
 
     .venv-adapters/bin/python benchmarks/generators.py examples/generators/stool.py ... [--references 20] [--seed 1000]
+        [--within SECONDS]
 
 For each generator: the mean absolute error of each scalar as a share of its Range, F1 of each other parameter (the mean
-over the classes that occur), how many references are replicated, and the time. Settings are the defaults.
+over the classes that occur), how many references are replicated, and the time. Settings are the defaults, but
+for the time that a fit may take.
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ import shapewright as sw
 from shapewright.fitting.samples import write_samples
 
 
-def recovered(path: str, count: int, seed: int) -> None:
+def recovered(path: str, count: int, seed: int, within: float | None) -> None:
     """Print a row of the table, and one for each parameter."""
     generator = sw.load_procedure(path)
     with tempfile.TemporaryDirectory() as place:
@@ -30,7 +32,7 @@ def recovered(path: str, count: int, seed: int) -> None:
         with (folder / "manifest.csv").open(encoding="utf-8") as table:
             truth = {Path(row["path"]).stem: row for row in csv.DictReader(table) if row["path"]}
         started = time.perf_counter()
-        iteration = sw.fit(generator, sw.Collection.load(str(folder / "*.stl")))
+        iteration = sw.fit(generator, sw.Collection.load(str(folder / "*.stl")), sw.Settings(within=within))
         seconds = time.perf_counter() - started
     errors, scores = {}, {}
     for parameter in generator.space:
@@ -56,9 +58,10 @@ def main() -> None:
     parser.add_argument("generators", nargs="+")
     parser.add_argument("--references", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1000)
+    parser.add_argument("--within", type=float)
     chosen = parser.parse_args()
     for path in chosen.generators:
-        recovered(path, chosen.references, chosen.seed)
+        recovered(path, chosen.references, chosen.seed, chosen.within)
 
 
 if __name__ == "__main__":
