@@ -113,7 +113,7 @@ def test_another_python_builds_and_is_kept(tmp_path, python):
 
 @pytest.mark.skipif(os.name != "posix", reason="the folders of environments are those of POSIX")
 def test_a_call_elsewhere_that_takes_too_long_costs_its_shape_alone(tmp_path, python):
-    made = sw.load_procedure(written(tmp_path, head=f'python = "{python}"\nseconds = 1\n'))
+    made = sw.load_procedure(written(tmp_path, head=f'python = "{python}"\nseconds = 3\n'))
     with Workers(made, 1, Limits(seconds=30.0)) as crew:
         builds = crew.build([{"width": 2.0, "height": height} for height in (2.0, 8.5, 3.0)])
     assert [build.failure.kind if build.failure else None for build in builds] == [None, "time", None]

@@ -137,7 +137,7 @@ def test_parameters_without_a_shape_are_infeasible(tmp_path):
 
 def test_what_takes_too_long_is_ended_with_its_children_and_only_that_shape_is_lost(tmp_path):
     slow = f"case $3 in 4*) sleep 60 & echo $! > {tmp_path}/child; wait;; esac; {writes()}"
-    made = procedure(tmp_path, slow, "seconds = 1.5")
+    made = procedure(tmp_path, slow, "seconds = 3")
     vectors = [{"width": width, "lid": False} for width in (1.0, 4.0, 3.0)]
     with Workers(made, 1, Limits(seconds=30.0)) as crew:
         builds = crew.build(vectors)
