@@ -149,6 +149,13 @@ def test_what_takes_too_long_is_ended_with_its_children_and_only_that_shape_is_l
     assert not os.path.exists(f"/proc/{child}")  # noqa: PTH110
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="the limit of memory holds on Linux")
+def test_a_program_has_the_memory_that_its_spec_says(tmp_path):
+    hungry = f"{sys.executable} -c 'import time; time.sleep(0.1); b = bytearray(500 * 2**20)' && {writes()}"
+    assert procedure(tmp_path, hungry)(width=3.0).extent[0] == 3.0
+    assert "MemoryError" in failure(procedure(tmp_path, hungry, "memory = 300"))
+
+
 def test_failures_of_workers_say_what_the_program_said(tmp_path):
     made = procedure(tmp_path, "echo no licence >&2; exit 1")
     with Workers(made, 1) as crew:

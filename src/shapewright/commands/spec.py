@@ -58,7 +58,7 @@ class Spec:
         out: name of the file that it leaves, where no placeholder says it.
         infeasible: exit status that says that parameters have no shape.
         seconds: wall time that a shape may take; None where the settings say it.
-        memory_mb: megabytes that the program may take; None without a limit.
+        memory_mb: megabytes that the program may write to; None without a limit.
         environment: variables that it gets.
         constraints: conditions without which parameters have no shape.
         place: the line that says what is run.

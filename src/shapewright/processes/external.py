@@ -7,11 +7,11 @@ import os
 import select
 import signal
 import subprocess
-import sys
 import tempfile
 import threading
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import IO
@@ -67,9 +67,9 @@ def run_program(
                 stdout=told,
                 stderr=failed,
                 start_new_session=True,
+                preexec_fn=partial(allow, memory_mb) if memory_mb and os.name == "posix" else None,
             )
         try:
-            _limit(process, memory_mb)
             with _ended_by_terminate():
                 late = not _wait(process, seconds)
         finally:
@@ -82,6 +82,7 @@ def _without_limit() -> Iterator[None]:
     """A program that is started here does not inherit this process's limit of memory.
 
     A function that lifts it in the new process would cost 18 ms of CPU: Python then copies this process's page tables.
+    Only a program that has a limit of its own costs that; what it starts itself has to have the limit as well.
     """
     try:
         import resource
@@ -96,15 +97,6 @@ def _without_limit() -> Iterator[None]:
     finally:
         with contextlib.suppress(ValueError, OSError):
             resource.setrlimit(resource.RLIMIT_DATA, own)
-
-
-def _limit(process: subprocess.Popen[bytes], memory_mb: int | None) -> None:
-    if memory_mb is not None and sys.platform == "linux":
-        import resource
-
-        with contextlib.suppress(ValueError, OSError):
-            hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
-            resource.prlimit(process.pid, resource.RLIMIT_DATA, (memory_mb * 2**20, hard))
 
 
 def allow(memory_mb: int | None) -> None:
