@@ -47,7 +47,9 @@ def _settings() -> str:
         if name not in changes.ChosenSettings.__struct_fields__:
             continue
         known: dict[str, Any] = {"help": field.help, "choices": field.choices}
-        if not field.choices:
+        if field.kind is str and not field.choices:
+            known = {"help": field.help}
+        elif not field.choices:
             least = field.within.above if field.within.least is None else field.within.least
             known = {"help": field.help, "least": least, "most": field.within.most or field.within.below}
             known["step"] = field.within.step or 1 if field.kind is int else "any"

@@ -13,7 +13,7 @@ import type { Slug } from "../wire/messages";
 import { VIEWS } from "../viewer/stage";
 import type { View } from "../viewer/stage";
 import { Causes, regionsShown } from "./causes";
-import { Facts, Figures, Judgement, Standing } from "./figures";
+import { Facts, Figures, Judgement, Standing, Taken } from "./figures";
 import { LayoutSwitch, Legend, OverLegend } from "./legend";
 import { MeasureCard } from "./measuring/card";
 import { take, tool, undo } from "./measuring/points";
@@ -80,6 +80,7 @@ export function Inspector({ slug }: { slug: Slug }) {
         <Causes />
         <Judgement />
         <Facts />
+        <Taken />
       </aside>
     </div>
   );

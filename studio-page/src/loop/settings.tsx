@@ -27,6 +27,11 @@ const CHOICES = [
   ["judge", "Judge"],
 ] as const;
 
+const WORDS = [
+  ["drop", "Drop"],
+  ["leave_out", "Leave out"],
+] as const;
+
 const options = <T extends string>(values: readonly T[]) => values.map((value) => ({ value, label: value }));
 
 export function Settings() {
@@ -70,6 +75,17 @@ export function Settings() {
               const value = event.currentTarget.valueAsNumber;
               if (Number.isFinite(value)) void change({ [name]: value });
             }}
+          />
+        </label>
+      ))}
+      {WORDS.map(([name, label]) => (
+        <label key={name} class="field" title={SETTINGS[name].help}>
+          <span>{label}</span>
+          <input
+            type="text"
+            value={now[name]}
+            placeholder={name === "leave_out" ? "none" : undefined}
+            onChange={(event) => void change({ [name]: event.currentTarget.value })}
           />
         </label>
       ))}

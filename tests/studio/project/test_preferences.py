@@ -33,6 +33,12 @@ def test_what_a_setting_does_not_allow_is_refused(given, message):
     assert str(error.value) == message
 
 
+def test_what_is_left_out_and_dropped_is_chosen_in_the_page_and_stays_with_another_preset():
+    chosen = Preferences().changed({"leave_out": "a, b*", "drop": "nothing"})
+    assert (chosen.settings.patterns, chosen.settings.dropped) == (("a", "b*"), ())
+    assert chosen.changed({"preset": "paper"}).message().leave_out == "a, b*"
+
+
 def test_another_preset_keeps_what_no_preset_says():
     before = Preferences(settings=Settings(workers=2)).changed({"threshold": 0.2, "seed": 3, "epochs": 4, "rounds": 2})
     paper = before.changed({"preset": "paper", "samples": 500})

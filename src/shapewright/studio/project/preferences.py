@@ -13,8 +13,13 @@ from shapewright.studio.wire.changes import ChosenSettings
 SHAPE_SECONDS = 5.0
 """Seconds that one shape may take in the studio: half of what a fit on the command line gives it, because one waits."""
 _JUDGE = ("judge", "replicated", "close", "threshold", "vif")
-_FIT = ("samples", "epochs", "refine", "facing", "rounds", "seed", *_JUDGE, "shape_seconds")
-_KEPT = (*groups()["building"], *(name for name in groups()["judging"] if name != "judge"), "seed", "workers")
+_PREPARED = ("drop", "leave_out")
+_FIT = ("samples", "epochs", "refine", "facing", "rounds", "seed", *_JUDGE, "shape_seconds", *_PREPARED)
+_GROUPS = groups()
+_KEPT = (
+    *(*_GROUPS["preparing"], *_GROUPS["building"], *(name for name in _GROUPS["judging"] if name != "judge")),
+    *("seed", "workers"),
+)
 """The settings that stay when another preset is chosen: no preset says anything about them."""
 
 

@@ -43,6 +43,8 @@ class ChosenSettings(Struct, frozen=True, kw_only=True):
     threshold: float
     vif: float
     shape_seconds: float
+    drop: str
+    leave_out: str
 
 
 class State(Message, frozen=True, kw_only=True, tag="state"):

@@ -32,6 +32,8 @@ export interface ChosenSettings {
   threshold: number;
   vif: number;
   shape_seconds: number;
+  drop: string;
+  leave_out: string;
 }
 
 /** Everything. It is the first message, and replaces all. */

@@ -2,6 +2,8 @@
 
 export const PRESETS = ["fast", "paper"] as const;
 export const SETTINGS = {
+  drop: { help: "What is no part of a shape: sure, ground, backdrop, frustum, loose, or nothing." },
+  leave_out: { help: "References that are not fitted: names or patterns, with commas between." },
   shape_seconds: { help: "Seconds that building one shape may take.", least: 0, most: null, step: "any" },
   samples: { help: "Parameter vectors to learn from.", least: 20, most: null, step: 1 },
   epochs: { help: "Passes of training over the samples.", least: 1, most: null, step: 1 },
