@@ -50,6 +50,7 @@ def listing(origin: Origin) -> Listing:
     sources = find([origin.source], origin.up, origin.front, origin.keep)
     home = Path(origin.confine).resolve() if origin.confine else None
     skipped = {one.place: one.refusal for one in sources if one.refusal}
+    skipped |= {one.place: "left out by the manifest" for one in sources if one.switches.leave_out}
     for one in sources:
         if home and not (one.archive or one.path).resolve().is_relative_to(home):
             skipped[one.place] = _OUTSIDE

@@ -11,6 +11,7 @@ from itertools import chain
 from pathlib import Path
 
 from shapewright.procedures import BINARY, is_foreign, source_digest, text_of
+from shapewright.references.standing import AUTO
 from shapewright.runs.folder import runs
 from shapewright.storage import remove_leftovers, write_file
 from shapewright.studio.project.listing import Origin
@@ -66,8 +67,13 @@ class Project:
     ) -> Project:
         """The project in a folder. references: another source than its folder ``references``, which may lie anywhere.
 
-        Raises ProjectError for a folder without a procedure.
+        Raises ProjectError for a folder without a procedure, and where up is to be found.
         """
+        if up.strip().lower() == AUTO:
+            raise ProjectError(
+                "--up auto: the studio finds no axes; shapewright check says which ones references seem to have: "
+                "tell them by --up and --front, or for single files in a manifest"
+            )
         home = folder.expanduser().resolve()
         if not home.is_dir():
             raise ProjectError(f"{folder}: no such folder; {_START}")
