@@ -45,7 +45,7 @@ BLENDER := .venv-blender/bin/python
 
 test-blender: .venv-blender/installed
 	SHAPEWRIGHT_BLENDER=$(CURDIR)/$(BLENDER) $(BIN)/pytest tests/adapters/test_blender.py
-	$(BLENDER) -m pytest tests/adapters/test_bpy.py
+	$(BLENDER) -m pytest tests/adapters/test_bpy.py tests/adapters/test_starters.py
 
 .venv-blender/installed: .venv/installed Makefile
 	$(BIN)/python -m venv .venv-blender

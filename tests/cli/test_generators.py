@@ -22,8 +22,9 @@ BOX = "    return trimesh.creation.box((w, h, 1))\n"
 
 def run(folder, body, *arguments, command="sample"):
     (folder / "p.py").write_text(HEAD + body)
+    environment = {**os.environ, "SHAPEWRIGHT_CACHE": str(folder / "cache")}
     call = [sys.executable, "-m", "shapewright", command, "p.py", *arguments]
-    return subprocess.run(call, cwd=folder, capture_output=True, text=True, timeout=200, env=os.environ)
+    return subprocess.run(call, cwd=folder, capture_output=True, text=True, timeout=200, env=environment)
 
 
 @pytest.mark.parametrize("verbose", [False, True])

@@ -59,7 +59,12 @@ _READERS: Mapping[str, Callable[[Path, str | None], Procedure]] = {
 """What makes a procedure of a file that is no Python, by its suffix. It is given the file, and the name that is asked
 for: for a file with one procedure it becomes the procedure's name. It imports what it needs when it is called."""
 _NAMED = re.compile(rf"(.*({'|'.join(map(re.escape, ['.py', *sorted(FOREIGN)]))})):(.+)", re.IGNORECASE | re.DOTALL)
-EXTRAS: Mapping[str, str] = {"cadquery": "cadquery", "build123d": "build123d", "bpy": "blender"}
+EXTRAS: Mapping[str, str] = {
+    "cadquery": "cadquery",
+    "build123d": "build123d",
+    "bpy": "blender",
+    "scene_synthesizer": "scene-synthesizer",
+}
 """The extra that installs a module which authors import."""
 _HELPERS = "__shapewright_helpers__"
 """The name under which an executed file has the files that it imported from its own folder."""
