@@ -10,7 +10,7 @@ from shapewright.feedback.ideas.proposals import frames_of, proposals
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.supports import bounds_of
-from shapewright.rules.library import bundled_rules
+from shapewright.rules.library import bundled_rules, library
 
 TABLE = """from typing import Annotated
 
@@ -188,3 +188,18 @@ def chair(seat: Annotated[float, Range(0.3, 0.6)] = 0.45):
         low, high = bounds_of(made, "leaning panel")
         assert low[1] == pytest.approx(values["seat"], abs=1e-6) and high[1] == pytest.approx(1.0, abs=1e-6)
         assert high[2] - low[2] == pytest.approx((0.12, 0.14)[row], rel=0.05)
+
+
+@pytest.mark.parametrize("size", [(0.5, 0.4, 0.08), (0.1, 0.5, 0.1)])
+def test_every_rule_of_the_library_can_be_written_and_built_in_any_space(table, tmp_path, size):
+    for rule in library():
+        several = []
+        for row, grown in enumerate((1.0, 1.2)):
+            low = np.array([-0.4, 0.1 + 0.03 * row, -0.2])
+            values = {parameter.name: parameter.default for parameter in rule.space}
+            piece = Piece("rule", low, low + grown * np.array(size), rule=rule, arguments=values)
+            several.append(misfit(table, row, Hypothesis(pieces=(piece,), cost=900.0, before=3000.0)))
+        (found,) = made(table, several)
+        changed = loads(tmp_path, found)
+        (values,) = found.candidates(several[0])
+        assert len(changed(**changed.space.carry(values)).label_names) == 3, rule.name
