@@ -41,7 +41,7 @@ from shapewright.search.budgets import Budget
 _BUILT = 20  # proposals of which shapes are built, at most
 _SAMPLED = 12  # misfits that these are built for
 _LEADING, _SEARCHED = 8, 4  # proposals that are searched with before one is chosen, and misfits of each
-_CONFIRMED = 5  # proposals that are tried on all misfits, at most
+_CONFIRMED, _LONGER = 7, 3  # proposals that are tried on all misfits, at most; of these with longer Ranges alone
 _LEADING_SHARE = 0.3  # of all evaluations, for the leading proposals
 _CONFIRMED_SHARE = 0.35  # of what is left, for each that is tried on all misfits
 _BORROWED = 0.15  # of these, for the choices that suit others
@@ -84,6 +84,8 @@ def selected(
         share = int(_LEADING_SHARE * evaluations / min(_LEADING, max(len(leading), 1)))
         leading[:_LEADING] = [_briefly_searched(trials, prospect, share) for prospect in leading[:_LEADING]]
         leading = sorted(leading, key=lambda prospect: -prospect.promise)
+        longer = [prospect for prospect in leading if prospect.proposal.rule is None][_LONGER:]  # say much the same
+        leading = [prospect for prospect in leading if prospect not in longer]
         changes: list[Change] = []
         tried: list[Tried] = []
         left = (1.0 - _LEADING_SHARE) * evaluations
