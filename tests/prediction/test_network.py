@@ -160,3 +160,10 @@ def test_the_loss_does_not_see_the_spread():
     answers = CompactNetwork(SPACE, views=1, size=16)(torch.rand(4, 1, 2, 16, 16))
     changed = [torch.cat([answers[0][:, :1], torch.rand(4, 1)], dim=1), *answers[1:]]
     assert loss(SPACE, answers, targets, active) == loss(SPACE, changed, targets, active)
+
+
+def test_values_of_vectors_and_records_have_heads_as_others_do():
+    space = ParameterSpace((Scalar("size.x", 0.2, 1, 0.5), Binary("legs.round", False), Binary("legs_round", False)))
+    network = make_network("compact", space, 2, 32)
+    assert [head_of(network, name) for name in space.names] == list(network.heads.values())
+    assert len(set(network.state_dict())) == len(network.state_dict())

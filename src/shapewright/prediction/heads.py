@@ -40,7 +40,7 @@ class Heads(nn.ModuleDict):
     def __init__(self, space: ParameterSpace, features: int, width: int = 128) -> None:
         super().__init__(
             {
-                f"head_{parameter.name}": _mlp(features, width, parameter.classes)
+                _key(parameter.name): _mlp(features, width, parameter.classes)
                 if parameter.classes
                 else ScalarHead(features, width)
                 for parameter in space
@@ -65,7 +65,12 @@ class Heads(nn.ModuleDict):
 
 def head_of(network: nn.Module, name: str) -> nn.Module:
     """The head of one parameter in a network."""
-    return network.get_submodule(f"heads.head_{name}")
+    return network.get_submodule(f"heads.{_key(name)}")
+
+
+def _key(name: str) -> str:
+    """Of a parameter's head: torch allows no point in it, and values of vectors and records have one, as ``size.x``."""
+    return f"head_{name.replace('.', '/')}"
 
 
 def _mlp(features: int, width: int, out: int) -> nn.Sequential:
