@@ -12,9 +12,9 @@ from shapewright.parameters import Parameters
 AnswerKind = Literal["carried over", "most similar samples", "predicted"]
 """Where parameters that are shown before the end of a fit come from: the run before, the first samples, the network."""
 
-NoticeKind = Literal["pace", "within", "kept", "stochastic"]
-"""What a notice is about: the cost of a shape, how a limit of time is divided, samples of an earlier run that are used
-again, and a procedure that builds other shapes from the same parameters."""
+NoticeKind = Literal["waiting", "pace", "within", "kept", "stochastic"]
+"""What a notice is about: no shape yet, the cost of a shape, how a limit of time is divided, samples of an earlier run
+that are used again, and a procedure that builds other shapes from the same parameters."""
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ _DOING = {
     "trials": "trying suggestions",
 }
 
-_OPTIONS = {"pace": " (--samples 500); --within 10min makes all of a fit last so long"}
+_OPTIONS = {"pace": "; fewer --samples are quicker, and --within 10min makes all of a fit last so long"}
 """What of the command line helps, behind notices."""
 
 

@@ -94,7 +94,7 @@ def _sought(builds: Sequence[Build], start: Start | None) -> Sought:
 
 def _wait(seconds: float, samples: int, cores: int) -> Notice:
     text = f"no shape is built after {lasting(seconds)}: if each takes as long, {samples:,} samples take "
-    return Notice("pace", f"{text}{lasting(seconds * samples / cores)} on {_cores(cores)}")
+    return Notice("waiting", f"{text}{lasting(seconds * samples / cores)} on {_cores(cores)}")
 
 
 def _cores(count: int) -> str:
