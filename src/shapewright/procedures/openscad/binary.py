@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.procedures.errors import ProcedureError
-from shapewright.procedures.openscad.messages import failure
+from shapewright.procedures.openscad.messages import failure, is_lacking, located
 from shapewright.procedures.places import Place
 from shapewright.processes.external import run_program
 from shapewright.processes.limits import memory_left
@@ -29,6 +29,9 @@ def built(program: str, file: Path, values: Mapping[str, Any]) -> Any:
         ended = run_program([program, "-o", str(made), *given, str(file)], file.parent, memory_mb=memory_left())
         if wrong := next((line for line in ended.said if line.startswith("ERROR: ")), None):
             raise failure(file, wrong)
+        for line in ended.said:
+            if line.startswith("WARNING: ") and is_lacking(line):
+                raise ProcedureError(*located(file, line.removeprefix("WARNING: ")))
         if any(_FLAT in line for line in ended.said):
             advice = "it is 2D, and the program openscad makes no drawings here: pip install 'shapewright[openscad]'"
             raise ProcedureError(advice, Place(str(file), None))

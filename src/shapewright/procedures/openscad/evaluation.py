@@ -19,12 +19,10 @@ from openscad_lalr_parser.nodes import Assignment, BooleanLiteral, ListComprehen
 
 from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.openscad.labels import meshed
-from shapewright.procedures.openscad.messages import failure, located, place
+from shapewright.procedures.openscad.messages import failure, is_lacking, located, place
 from shapewright.procedures.places import Place
 
 _SYNTAX = re.compile(r"Syntax error in (.*) at line (\d+), column \d+:\n(.*)")
-_LACKING = ("Ignoring unknown module", "Ignoring unknown function", "Can't open", "Could not read", "mesh could not")
-"""How warnings begin, or what they say, after which a part of the shape is not there."""
 
 
 class Lacking(ProcedureError):
@@ -76,7 +74,7 @@ def evaluated(file: Path, values: Mapping[str, Any], stamp: str) -> Any:
         raise ProcedureError("modules or functions call themselves without end", Place(str(file), None)) from error
     warnings = [message.removeprefix("WARNING: ") for message in said if message.startswith("WARNING: ")]
     for warning in warnings:
-        if any(lack in warning for lack in _LACKING):
+        if is_lacking(warning):
             raise Lacking(*located(file, warning))
     bodies = [body for body in bodies if body.role not in ("background", "highlight_ghost")]
     solids = [body.body for body in bodies if body.body is not None and not body.body.is_empty()]

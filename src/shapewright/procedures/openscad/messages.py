@@ -14,6 +14,14 @@ _WHERE = re.compile(
 """The place in a message. An import that fails names its line without the file; the call that led to it is behind."""
 _ASSERTION = re.compile(r"Assertion '(.*)' failed(?:: \"?(.*?)\"?)?$", re.DOTALL)
 
+_LACKING = ("Ignoring unknown module", "Ignoring unknown function", "Can't open", "Could not read", "mesh could not")
+"""How warnings begin, or what they say, after which a part of the shape is not there."""
+
+
+def is_lacking(warning: str) -> bool:
+    """Whether a part of the shape is not there after this warning."""
+    return any(lack in warning for lack in _LACKING)
+
 
 def failure(file: Path, said: str) -> Exception:
     """The error of what is said about a file.
