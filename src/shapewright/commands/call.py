@@ -7,46 +7,18 @@ import functools
 import importlib
 import inspect
 import sys
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from shapewright.commands.command import arguments
+from shapewright.commands.function import arguments
 from shapewright.commands.spec import Spec
-from shapewright.procedures import Place, ProcedureError, describe
+from shapewright.procedures import ProcedureError, describe
 
 
-@dataclass(frozen=True)
-class Call:
-    """What a spec calls, in this Python.
-
-    spec: what it says of the call.
-    """
-
-    spec: Spec
-
-    @property
-    def __name__(self) -> str:
-        return self.spec.name
-
-    @property
-    def __signature__(self) -> inspect.Signature:
-        return inspect.Signature(self.spec.entries.parameters)
-
-    @property
-    def own_names(self) -> Mapping[str, str]:
-        """What the tool calls its parameters."""
-        return self.spec.entries.names
-
-    @property
-    def place(self) -> Place | None:
-        """The line that says what is called."""
-        return self.spec.place
-
-    def __call__(self, **values: Any) -> Any:
-        """Whatever the function returns. Raises what it raises, Infeasible, ProcedureError where it is not found."""
-        return called(self.spec)(**arguments(self.spec, values))
+def call(spec: Spec, values: dict[str, Any]) -> Any:
+    """Whatever the function returns. Raises what it raises, Infeasible, ProcedureError where it is not found."""
+    return called(spec)(**arguments(spec, values))
 
 
 def called(spec: Spec) -> Callable[..., Any]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from shapewright.commands.call import Call, called
-from shapewright.commands.command import Command
-from shapewright.commands.elsewhere import Elsewhere
+from shapewright.commands.call import call, called
+from shapewright.commands.command import run
+from shapewright.commands.elsewhere import call_elsewhere
+from shapewright.commands.function import Function
 from shapewright.commands.spec import read_spec
 from shapewright.procedures import Procedure
 
@@ -19,7 +20,7 @@ def read(path: Path, name: str | None) -> Procedure:
         spec = replace(spec, name=name)
     if spec.target and not spec.python:
         called(spec)  # what is not there says so now
-    kind = Command if not spec.target else Elsewhere if spec.python else Call
-    procedure = Procedure(kind(spec), facts=spec.facts)
+    make = run if not spec.target else call_elsewhere if spec.python else call
+    procedure = Procedure(Function(spec, make), facts=spec.facts)
     procedure.helpers, procedure.seconds = spec.helpers, spec.seconds
     return procedure
