@@ -72,7 +72,7 @@ def test_the_manifest_says_what_each_file_is(stool, tmp_path):
     assert samples == Samples(len(made), unsound, 12 - len(made), samples.failures)
     assert "it falls over" in samples.failures
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
-        "manifest.csv", "samples.json", *(row["path"] for row in made)
+        "manifest.csv", "manifest.samples.json", *(row["path"] for row in made)
     }  # fmt: skip
     scene = trimesh.load(tmp_path / "out" / made[0]["path"])
     assert set(scene.geometry) == {"seat", "legs"} and scene.metadata["seed"] == 0
@@ -82,7 +82,7 @@ def test_the_manifest_says_what_each_file_is(stool, tmp_path):
 
 def test_a_folder_begun_by_an_earlier_version_is_still_known(stool, tmp_path):
     write_samples(stool, 1, tmp_path / "out", workers=1)
-    assert json.loads((tmp_path / "out" / "samples.json").read_text())["source"] == "8ccf404ea0f3195f"
+    assert json.loads((tmp_path / "out" / "manifest.samples.json").read_text())["source"] == "8ccf404ea0f3195f"
 
 
 def test_the_files_do_not_depend_on_the_number_of_workers(stool, tmp_path):
@@ -137,7 +137,7 @@ def test_a_folder_of_other_things_is_left_alone(stool, tmp_path):
         write_samples(stool, 3, tmp_path, workers=1)
     assert {path.name for path in tmp_path.iterdir()} == {"stool.py"}
     (tmp_path / "out").mkdir()
-    (tmp_path / "out" / "samples.json").write_text("{")
+    (tmp_path / "out" / "manifest.samples.json").write_text("{")
     with pytest.raises(RunError, match=r"samples\.json: cannot be read"):
         write_samples(stool, 3, tmp_path / "out", workers=1)
 
@@ -171,4 +171,4 @@ def test_drawings_have_no_soundness(tmp_path):
     samples = write_samples(load_procedure(tmp_path / "disc.py"), 2, tmp_path / "out", workers=1)
     assert samples == Samples(2, 0, 0, "")
     assert [row["path"][-4:] + row["sound"] for row in manifest(tmp_path / "out")] == [".svg", ".svg"]
-    assert json.loads((tmp_path / "out" / "samples.json").read_text())["procedure"] == "disc"
+    assert json.loads((tmp_path / "out" / "manifest.samples.json").read_text())["procedure"] == "disc"

@@ -39,7 +39,7 @@ class TestFolder:
 
     def test_hidden_folders_and_those_of_runs_and_samples_are_passed_over(self, tree):
         folder = tree("x/b.stl", "x/y/a.off", "readme.txt", ".git/c.obj", "__MACOSX/x/b.stl")
-        tree("runs/001/iteration.json", "runs/001/replicas/b.glb", "out/samples.json", "out/a-0001.glb")
+        tree("runs/001/iteration.json", "runs/001/replicas/b.glb", "out/manifest.samples.json", "out/a-0001.glb")
         assert names(folder) == ["a", "b"]
         assert names(folder / "out") == ["a-0001"]
 

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import math
-import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
-from importlib.metadata import version
 
 from shapewright.building import Build
 from shapewright.comparison.grouping import Group
@@ -22,11 +20,9 @@ from shapewright.references.standing import AUTO, axes_record
 from shapewright.runs.helpers import helpers_of
 from shapewright.runs.iteration import Iteration, draw_pictures
 from shapewright.runs.result import Result
+from shapewright.runs.versions import versions
 from shapewright.storage import printable
 from shapewright.survey.duplicates import Duplicate
-
-VERSIONED = ("shapewright", "numpy", "torch", "numba", "manifold3d", "scikit-learn", "trimesh")
-"""Packages on which results depend."""
 
 
 def judged(
@@ -157,7 +153,7 @@ def recorded(
             "curve": [vars(epoch) for epoch in predictor.curve],
             "validation": predictor.metrics,
         },
-        versions={"python": platform.python_version(), **{name: version(name) for name in VERSIONED}},
+        versions=versions(),
         created=datetime.now(UTC).isoformat(timespec="seconds"),
         pictures=pictures,
         predictor=predictor,

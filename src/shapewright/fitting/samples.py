@@ -1,7 +1,8 @@
 """Random shapes of a procedure, in memory, or written as files: thousands of them, in parallel, and resumed.
 
-The folder holds one file a shape, ``manifest.csv`` with a row for every parameter vector, and ``samples.json``, which
-says what the samples are of. A file is whole or not there, and the manifest never names one that is not.
+The folder holds one file a shape, ``manifest.csv`` with a row for every parameter vector, and
+``manifest.samples.json``, which says what the samples are of. A file is whole or not there, and the manifest never
+names one that is not.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -23,13 +23,14 @@ from shapewright.parameters import Parameters
 from shapewright.procedures import Facts, Procedure, source_digest
 from shapewright.progress import Listener, Stages
 from shapewright.runs.folder import RunError, check_free
+from shapewright.runs.versions import version_of
 from shapewright.shapes import Drawing, Mesh
 from shapewright.shapes.files import Format, encode
 from shapewright.shapes.soundness import Soundness
 from shapewright.storage import remove_leftovers, whole_file, write_file
 from shapewright.threads import cores
 
-MANIFEST, RECORD = "manifest.csv", "samples.json"
+MANIFEST, RECORD = "manifest.csv", "manifest.samples.json"
 _FORMAT = 1
 _CHUNK = 256
 """Shapes after which the manifest is written, at least; an eighth of those before, so that this costs little."""
@@ -121,14 +122,14 @@ def write_samples(
 def _record(
     procedure: Procedure, format: str, seed: int, given: Mapping[str, Parameters] | None = None
 ) -> dict[str, Any]:
-    """What ``samples.json`` holds. The digest is not that of runs: with another value no older folder could resume."""
+    """What ``RECORD`` holds. The digest is not that of runs: with another value no older folder could resume."""
     return {
         "format": _FORMAT,
         "procedure": procedure.name,
         "source": hashlib.blake2b(procedure.source.encode(), digest_size=8).hexdigest(),
         "files": format,
         "seed": seed,
-        "version": version("shapewright"),
+        "version": version_of("shapewright"),
         **({} if given is None else {"parameters": source_digest(json.dumps(given))}),
     }
 

@@ -29,7 +29,7 @@ MANIFEST = ".csv"
 """The extension of a table that lists files."""
 _LOOKED_FOR = " ".join(sorted((*MESHES, ".svg", ".png"))) + ", other pictures, and points such as .las .pcd .xyz"
 _SHOWN = 5
-_OURS = frozenset(["iteration.json", "samples.json"])
+_OURS = frozenset(["iteration.json", "manifest.samples.json", "samples.json"])
 """Files of which one is in each run and in each folder of samples: their shapes are replicas, and no references."""
 _IS_UNPACKED = "an archive beside a folder of its name, which is read in its place"
 _AMONG_MESHES = "a drawing below a folder of meshes; load drawings for themselves, with a pattern such as '*.svg'"

@@ -6,13 +6,13 @@ import asyncio
 import contextlib
 from dataclasses import replace
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import EXPLANATION, RunError
 from shapewright.runs.marks import replace_pairs
+from shapewright.runs.versions import version_of
 from shapewright.settings import Settings
 from shapewright.storage import cache_folder
 from shapewright.studio.bench import messages
@@ -79,7 +79,7 @@ class Session:
         """All that a page shows."""
         project = self.project
         return changes.State(
-            version=version("shapewright"),
+            version=version_of("shapewright"),
             project=changes.ProjectNames(
                 name=project.folder.name,
                 folder=str(project.folder),
