@@ -13,7 +13,7 @@ from rich.table import Table
 
 from shapewright.cli.bars import interruptible
 from shapewright.cli.console import err, out, print_json
-from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers
+from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers, option
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError, load_procedure
 from shapewright.procedures.sets import read_sets
@@ -38,7 +38,7 @@ def sample(
     ] = None,
     seed: Seed = Settings.seed,
     workers: Workers = None,
-    verbose: Annotated[bool, typer.Option("--verbose", help="Show all that the procedure prints.")] = False,
+    verbose: Annotated[bool, option("verbose")] = False,
     json: Json = False,
 ) -> None:
     """Write random shapes of a procedure, or those that a file lists, and a table of their parameters and soundness."""
