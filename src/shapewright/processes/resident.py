@@ -58,16 +58,20 @@ class Resident:
 
     def __init__(self, words: Sequence[str], request: Mapping[str, Any]) -> None:
         """Start it, and wait for its first answer. Raises Gone; OSError where it cannot be started."""
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()  # a request that fails stops the program itself
         self._said = tempfile.TemporaryFile(mode="a+b")  # noqa: SIM115 - closed with the program
-        self._process = subprocess.Popen(
-            list(words),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=self._said,
-            bufsize=0,
-            preexec_fn=partial(allow, None) if os.name == "posix" else None,  # its own limit comes with a request
-        )
+        try:
+            self._process = subprocess.Popen(
+                list(words),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self._said,
+                bufsize=0,
+                preexec_fn=partial(allow, None) if os.name == "posix" else None,  # its own limit comes with a request
+            )
+        except BaseException:
+            self._said.close()
+            raise
         assert self._process.stdin and self._process.stdout
         self._to: IO[bytes] = self._process.stdin
         self._from: IO[bytes] = self._process.stdout
@@ -100,14 +104,21 @@ class Resident:
             except (EOFError, OSError) as error:
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     self._process.wait(_TO_END)  # so that its own status is known
+                self._end()
+                said = last_lines(self._said)
                 self.stop()
-                raise Gone(Ended(self._process.returncode, last_lines(self._said))) from error
+                raise Gone(Ended(self._process.returncode, said)) from error
             except BaseException:
                 self.stop()
                 raise
 
     def stop(self) -> None:
-        """End it at once."""
+        """End it at once; a thread that waits for its answer gets Gone."""
+        self._end()
+        with self._lock:
+            self._said.close()
+
+    def _end(self) -> None:
         self._process.kill()
         self._process.wait()
         self._to.close()
