@@ -93,6 +93,18 @@ def test_an_edit_that_changes_no_shape_keeps_them_after_a_look_at_every_class(pr
     assert built == PROBES + 16 and told is not None
 
 
+def test_what_the_author_saves_during_a_run_is_not_the_text_that_its_samples_are_of(project):
+    part = sw.load_procedure(project / "part.py")
+    vectors = part.space.sample(40, seed=0)
+    with Workers(part, 2) as crew:
+        stock = Stock(crew, project / "cache")
+        stock.fresh(vectors[:PROBES])
+        stock.build(vectors)
+        write(project, lambda text: text.replace("body = box", "size = 1.0\n    body = box"))
+        stock.keep()
+    assert run(project)[1] > PROBES
+
+
 @pytest.mark.parametrize(
     "change",
     [

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import hashlib
 from collections.abc import Callable, Sequence
-from importlib.metadata import version
 from pathlib import Path
 from typing import TypeAlias
 
@@ -16,6 +15,7 @@ from shapewright.fitting.pacing.filing import LEAST_SECONDS, read, tidy, write
 from shapewright.parameters import Parameters, Value
 from shapewright.procedures import Procedure
 from shapewright.progress import Notice
+from shapewright.runs.versions import version_of
 from shapewright.shapes import Mesh, Shape, shape_digest
 from shapewright.shapes.conversion.libraries import kernel
 
@@ -46,16 +46,17 @@ class Stock:
         self._path: Path | None = None
         self._built: dict[Key, Build] = {}
         self._kept: dict[Key, Build] = {}
+        self._digest = ""
         self._same = False
-        self._used = 0
         procedure = crew.procedure
         if folder and procedure.path:
             name = hashlib.sha256(f"{procedure.path}:{procedure.name}".encode()).hexdigest()[:20]
             self._path = folder / "samples" / f"{name}.npz"
+            self._digest = text_digest(procedure)  # of what is loaded: the author may save the file during a run
             digest, builds = read(self._path)
             names = list(procedure.space.names)
             self._kept = {_key(build.parameters): build for build in builds if list(build.parameters) == names}
-            self._same = digest == text_digest(procedure) and procedure.path.suffix != _PROGRAM
+            self._same = digest == self._digest and procedure.path.suffix != _PROGRAM
 
     def fresh(self, vectors: Sequence[Parameters], progress: Callable[[int, int], None] | None = None) -> list[Build]:
         """Build the first samples of a run, and forget what was kept where it is not the same any more.
@@ -103,7 +104,7 @@ class Stock:
         if self._path is None or not made:
             return
         if np.mean([build.seconds for build in made]) >= LEAST_SECONDS:
-            write(self._path, text_digest(self.crew.procedure), list({**self._kept, **self._built}.values()))
+            write(self._path, self._digest, list({**self._kept, **self._built}.values()))
             tidy(self._path.parent)
 
     def _take(self, builds: Sequence[Build]) -> None:
@@ -125,7 +126,7 @@ def text_digest(procedure: Procedure) -> str:
     parts += [
         repr(procedure.facts),
         repr((kernel.TESSELLATION, kernel.ANGLE, kernel.ANGLE_DRAWN)),
-        version("shapewright"),
+        version_of("shapewright"),
     ]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 
