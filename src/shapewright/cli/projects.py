@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias, get_args
 
 import typer
 from rich.markup import escape
@@ -15,16 +14,12 @@ from shapewright.cli.console import iteration_record, out, print_iteration, prin
 from shapewright.cli.fits import fit_and_save
 from shapewright.cli.options import Json, Seed, Workers
 from shapewright.procedures import load_procedure
+from shapewright.procedures.loading import EXTRAS
 from shapewright.runs.folder import RunError, check_writable, next_run
 from shapewright.settings import Settings
 
 Kind: TypeAlias = Literal["python", "cadquery", "build123d", "openscad", "blender", "drawing"]
-NEEDED: Mapping[Kind, str] = {
-    "cadquery": "cadquery",
-    "build123d": "build123d",
-    "openscad": "openscad_evaluator",
-    "blender": "bpy",
-}
+NEEDED = {extra: module for module, extra in EXTRAS.items() if extra in get_args(Kind)}
 """The module that a kind of procedure needs; the extra that installs it has the name of the kind."""
 
 

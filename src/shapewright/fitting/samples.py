@@ -84,7 +84,11 @@ def write_samples(
     SVG; they have no soundness. Raises RunError when the folder holds something else or cannot be written (what is
     there is then whole), ProcedureError when the procedure is broken.
     """
-    vectors = procedure.space.sample(count, seed=seed) if given is None else list(given.values())
+    if given is None:
+        vectors = procedure.space.sample(count, seed=seed)
+        names = [f"{procedure.name}-{i:05d}" for i in range(count)]
+    else:
+        vectors, names = list(given.values()), list(given)
     record = _record(procedure, format, seed, given)
     write = partial(_write_shape, folder, format=format, record=record, facts=procedure.facts)
     header = [COLUMNS[0], *procedure.space.names, *COLUMNS[1:]]
@@ -102,9 +106,7 @@ def write_samples(
                 chunk = vectors[len(rows) : len(rows) + max(_CHUNK, len(rows) // 8)]
                 builds = crew.build(chunk, step, give_up=not rows)
                 failed += [build for build in builds if build.failure]
-                numbers = range(len(rows), len(rows) + len(chunk))
-                names = [f"{procedure.name}-{i:05d}" if given is None else list(given)[i] for i in numbers]
-                rows += pool.map(write, names, builds)
+                rows += pool.map(write, names[len(rows) : len(rows) + len(chunk)], builds)
                 table = io.StringIO(newline="")
                 csv.writer(table).writerows([header, *rows])
                 write_file(folder / MANIFEST, table.getvalue())

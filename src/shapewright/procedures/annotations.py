@@ -18,7 +18,7 @@ from shapewright.parameters.kinds import Condition
 from shapewright.parameters.schema import condition_text
 from shapewright.procedures.bindings import NONE, Binding, Given, Group, Member, Plain
 
-_AXES = "xyzw"
+AXES = "xyzw"
 """Names of the values of a vector: as many as it may have."""
 
 
@@ -239,14 +239,14 @@ class _Both:
 
 def _vector(name: str, hint: _Hint, default: Any, missing: bool) -> Argument:
     parts = get_args(hint.kind)
-    if not parts or Ellipsis in parts or len(parts) > len(_AXES):
-        raise SignatureError(f"parameter {name!r}: a vector has one to {len(_AXES)} values, each with its type")
+    if not parts or Ellipsis in parts or len(parts) > len(AXES):
+        raise SignatureError(f"parameter {name!r}: a vector has one to {len(AXES)} values, each with its type")
     if not missing and (not isinstance(default, Sequence) or len(default) != len(parts)):
         raise SignatureError(f"parameter {name!r}: the default {default!r} has not {len(parts)} values")
     own = [part if get_origin(part) is Annotated or not hint.limits else Annotated[part, hint.limits] for part in parts]
     inner = [
         read(f"{name}.{axis}", part, None if missing else default[i], missing)
-        for i, (axis, part) in enumerate(zip(_AXES, own, strict=False))
+        for i, (axis, part) in enumerate(zip(AXES, own, strict=False))
     ]
     return _grouped(name, inner, tuple, None)
 

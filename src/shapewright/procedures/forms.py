@@ -12,6 +12,7 @@ from typing import Any, Literal, TypeAlias
 
 from shapewright.parameters import Parameters
 from shapewright.procedures.errors import ProcedureError
+from shapewright.procedures.openscad.text import literal
 from shapewright.procedures.procedure import Procedure
 
 Form: TypeAlias = Literal["python", "openscad", "blender", "json", "csv"]
@@ -70,26 +71,13 @@ def _python(value: Any) -> str:
 
 
 def _definitions(procedure: Procedure, given: Mapping[str, Any]) -> str:
-    return " ".join(f"-D {shlex.quote(f'{_own(procedure, name)}={_openscad(v)}')}" for name, v in given.items())
-
-
-def _openscad(value: Any) -> str:
-    """A value as OpenSCAD writes it; its undef stands for None."""
-    if isinstance(value, Enum):
-        value = value.name
-    if value is None:
-        return "undef"
-    if isinstance(value, tuple | list):
-        return f"[{', '.join(map(_openscad, value))}]"
-    return (
-        json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool | int | float) else json.dumps(str(value))
-    )
+    return " ".join(f"-D {shlex.quote(f'{_own(procedure, name)}={literal(v)}')}" for name, v in given.items())
 
 
 def _unquoted(value: Any) -> str:
     """As a parameter set has it: text without quotation marks."""
     text = value.name if isinstance(value, Enum) else value
-    return text if isinstance(text, str) else _openscad(text)
+    return text if isinstance(text, str) else literal(text)
 
 
 def _plain(value: Any) -> str:

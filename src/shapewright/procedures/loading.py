@@ -63,9 +63,10 @@ EXTRAS: Mapping[str, str] = {
     "cadquery": "cadquery",
     "build123d": "build123d",
     "bpy": "blender",
+    "openscad_evaluator": "openscad",
     "scene_synthesizer": "scene-synthesizer",
 }
-"""The extra that installs a module which authors import."""
+"""The extra that installs a module which procedures need."""
 _HELPERS = "__shapewright_helpers__"
 """The name under which an executed file has the files that it imported from its own folder."""
 

@@ -12,14 +12,13 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.parameters import Binary, Choice, Integer, Parameter, Parameters, Scalar, Value
+from shapewright.procedures.annotations import AXES
 from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.forms import SETS
 from shapewright.procedures.places import Place
 from shapewright.procedures.procedure import Procedure
 
 _YES, _NO = ("true", "1", "yes", "1.0"), ("false", "0", "no", "0.0")
-_AXES = "xyzw"
-"""Names of the values of a vector."""
 
 
 @dataclass(frozen=True)
@@ -124,7 +123,7 @@ def _spread(values: Mapping[str, Any], own: Mapping[str, str], names: tuple[str,
             json.loads(value) if isinstance(value, str) and re.fullmatch(r"\s*\[[-+\d.eE,\s]*\]\s*", value) else value
         )
         if isinstance(parts, list):
-            yield from ((f"{name}.{axis}", part) for axis, part in zip(_AXES, parts, strict=False))
+            yield from ((f"{name}.{axis}", part) for axis, part in zip(AXES, parts, strict=False))
         else:
             yield f"{name}.x", value
 

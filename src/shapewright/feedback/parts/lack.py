@@ -86,7 +86,7 @@ class Lack:
             found += [one for piece in decompose(far, self.middle, self.unit) for one in _ways(piece)]
         different: list[Piece] = []
         for piece in sorted(found, key=lambda piece: -float(np.prod(piece.size))):
-            if all(overlap(piece, other) < _SAME for other in different):
+            if all(_overlap(piece, other) < _SAME for other in different):
                 different.append(piece)
         return different[:_BOXES]
 
@@ -140,7 +140,7 @@ def _ways(piece: Piece) -> Iterator[Piece]:
         yield Piece("box", low, high, middle=piece.middle)
 
 
-def overlap(a: Piece, b: Piece) -> float:
+def _overlap(a: Piece, b: Piece) -> float:
     """Intersection over union of two boxes, 0 where only one of them is mirrored."""
     if a.mirrored != b.mirrored:
         return 0.0

@@ -9,6 +9,7 @@ from typing import Any
 
 from shapewright.procedures.errors import ProcedureError
 from shapewright.procedures.openscad.messages import failure, is_lacking, located
+from shapewright.procedures.openscad.text import literal
 from shapewright.procedures.places import Place
 from shapewright.processes.external import run_program
 from shapewright.processes.limits import memory_left
@@ -25,7 +26,7 @@ def built(program: str, file: Path, values: Mapping[str, Any]) -> Any:
 
     with tempfile.TemporaryDirectory() as folder:
         made = Path(folder) / "shape.off"
-        given = [f"-D{name}={_spelt(value)}" for name, value in values.items()]
+        given = [f"-D{name}={literal(value)}" for name, value in values.items()]
         ended = run_program([program, "-o", str(made), *given, str(file)], file.parent, memory_mb=memory_left())
         if wrong := next((line for line in ended.said if line.startswith("ERROR: ")), None):
             raise failure(file, wrong)
@@ -40,14 +41,3 @@ def built(program: str, file: Path, values: Mapping[str, Any]) -> Any:
             raise ProcedureError(f"openscad: {said}", Place(str(file), None))
         mesh: Any = trimesh.load(made, force="mesh", process=False)
         return mesh.vertices, mesh.faces
-
-
-def _spelt(value: Any) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-        return f'"{escaped}"'
-    if isinstance(value, tuple | list):
-        return f"[{', '.join(map(_spelt, value))}]"
-    return repr(value)

@@ -67,17 +67,16 @@ class Model:
         Raises Infeasible where an assertion fails, ProcedureError with the line of the file that is at fault.
         """
         named = {self.own_names.get(name, name): value for name, value in values.items()}
-        program = shutil.which(_PROGRAM)
-        if find_spec(_PACKAGE) is None and program:
+        if find_spec(_PACKAGE) is None and (program := shutil.which(_PROGRAM)):
             return built(program, self.file, named)
         from shapewright.procedures.openscad.evaluation import Lacking, evaluated
 
         try:
             return evaluated(self.file, named, self.stamp)
         except Lacking:
-            if program is None:
-                raise
-            return built(program, self.file, named)
+            if program := shutil.which(_PROGRAM):
+                return built(program, self.file, named)
+            raise
 
 
 def read(path: Path, name: str | None) -> Procedure:

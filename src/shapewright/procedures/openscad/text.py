@@ -1,10 +1,13 @@
-"""The text of an OpenSCAD file: what in it is code, and what is a comment."""
+"""The text of an OpenSCAD file: what in it is code, what is a comment, and how values are written."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from enum import Enum
+from typing import Any
 
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"?|//[^\n]*|/\*.*?(?:\*/|\Z)', re.DOTALL)
 _FILE = re.compile(r"\b(?:include|use)\s*<([^>\n]+)>|\b(?:import|surface)\s*\([^;]*?\"([^\"\n]+)\"")
@@ -76,6 +79,18 @@ class Text:
         """What it includes, uses and imports, as it names it, each once."""
         named = (match for match in _FILE.finditer(self.code) if self.bare[match.start()].strip())
         return tuple(dict.fromkeys(match[1] or match[2] for match in named))
+
+
+def literal(value: Any) -> str:
+    """A value as OpenSCAD writes it; its undef stands for None."""
+    if isinstance(value, Enum):
+        value = value.name
+    if value is None:
+        return "undef"
+    if isinstance(value, tuple | list):
+        return f"[{', '.join(map(literal, value))}]"
+    known = value if isinstance(value, str | bool | int | float) else str(value)
+    return json.dumps(known, ensure_ascii=False)
 
 
 def _blank(text: str) -> str:

@@ -89,10 +89,9 @@ def _switches(cells: Mapping[str, str], place: str) -> Switches:
 
 
 def _metres(unit: str, place: str) -> float:
-    from shapewright.procedures.facts import METRES  # loads slowly
+    from shapewright.procedures.facts import METRES, Unit  # loads slowly
 
-    word = _among(unit, tuple(METRES), "unit", place)
-    return next(metres for name, metres in METRES.items() if name == word)
+    return METRES[cast(Unit, _among(unit, tuple(METRES), "unit", place))]
 
 
 def _among(word: str, known: Sequence[str], column: str, place: str) -> str:
