@@ -114,7 +114,7 @@ def _differs(generator: sw.Procedure, changed: Parameters, whole: Any) -> bool:
     """Whether a shape looks otherwise than pictures; one that cannot be built does."""
     try:
         other = _pictures(generator, changed)
-    except (sw.ProcedureError, ValueError):
+    except (sw.ProcedureError, sw.Infeasible, ValueError):
         return True
     return int((np.abs(other - whole) > STEP).sum()) >= SEEN
 

@@ -52,6 +52,17 @@ def test_a_shape_on_its_head_costs_much_though_the_light_field_hardly_sees_it(so
     assert cost(solid, on_its_head(solid)) > 4.0 * cost(solid, wider)
 
 
+def test_the_pictures_change_evenly_with_a_leg_whose_edges_move_by_less_than_a_sample():
+    def table(leg):
+        return box((1, 0.1, 0.6)) | box((leg, 0.6, leg), at=(0.2, -0.3, 0.1))
+
+    difference = PosedDifference(table(0.1).mesh())
+    light = len(AlignedCost(table(0.1).mesh()).light(table(0.1).mesh().normalised()))
+    residuals = [difference.residual(table(0.1 + 0.002 * step).mesh()) for step in range(1, 9)]
+    steps = np.diff([0.0, *(np.abs(residual[light:]).sum() for residual in residuals)])
+    assert steps.min() > 0.0 and steps.max() < 3.0 * steps.min()  # 11 times where the cameras have no roll
+
+
 def test_a_mirrored_shape_costs_more_than_one_whose_arm_is_a_little_higher():
     assert cost(seat(), seat().mirror("x")) > 5.0 * cost(seat(), seat(arm=0.35))
 

@@ -80,6 +80,15 @@ def test_azimuth_turns_towards_the_right_and_elevation_rises():
     assert Camera(0.0, 30.0).frame()[2][1] == pytest.approx(0.5)
 
 
+def test_a_roll_turns_the_picture_clockwise():
+    high = render([box((0.2, 0.2, 0.2), at=(0, 0.35, 0)).mesh()], [Camera(0, 0, roll=90.0)], 64)[0, 0, 1]
+    rows, columns = np.nonzero(high)
+    assert 40 < columns.mean() < 64 and 28 < rows.mean() < 36  # up has become right
+    camera = Camera(30, 20, roll=25.0)
+    column, row, _ = camera.project(np.array([[0.0, 0.4, 0.0]]), 64)
+    assert column[0] > 32.0 and row[0] < 32.0
+
+
 def test_what_is_behind_or_too_near_the_camera_is_left_out():
     huge = Mesh(np.eye(3) * 100.0, np.array([[0, 1, 2]]))
     assert render([huge]).shape == (1, 3, 2, 64, 64)

@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Camera:
-    """A perspective camera that looks at the origin, up along +Y."""
+    """A perspective camera that looks at the origin, up along +Y where it has no roll."""
 
     azimuth: float  # degrees about the up axis, 0 in front (+Z), 90 to the right (+X)
     elevation: float  # degrees above the horizon
     distance: float = 2.6  # to the origin, in units of the shape's largest extent
     field_of_view: float = 36.0  # degrees, of the whole image
+    roll: float = 0.0  # degrees about the line of sight; positive turns the picture clockwise
 
     def frame(self) -> NDArray[np.float64]:
         """(3, 3): rows are the camera's right, up and backward (towards the camera) axes."""
@@ -26,7 +27,9 @@ class Camera:
         level = math.cos(elevation)
         backward = np.array([math.sin(azimuth) * level, math.sin(elevation), math.cos(azimuth) * level])
         right = np.array([math.cos(azimuth), 0.0, -math.sin(azimuth)])
-        return np.stack([right, np.cross(backward, right), backward])
+        up, roll = np.cross(backward, right), math.radians(self.roll)
+        turned = math.cos(roll) * right + math.sin(roll) * up, math.cos(roll) * up - math.sin(roll) * right
+        return np.stack([*turned, backward])
 
     @property
     def focal_length(self) -> float:

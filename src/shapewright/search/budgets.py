@@ -53,10 +53,17 @@ def _exactly(size: float, times: int = 1) -> tuple[Move, ...]:
     return (Probe(1, size, both=True, again=True), Step(1, 3)) * times
 
 
-# Eight combinations are built, three get a model, two follow theirs. The best one is then followed exactly, and
-# explored further for references that are incompatible by less than 40 %: where a longer search decides anything.
-# Chosen on the 133 furniture and cuboid tables of docs/benchmarks.md, "The search itself".
-QUICK = Budget((*(Scan(8), Probe(3), Step(2, scatter=2)), *_exactly(0.05), *(Step(1, scatter=4, near=1.4),) * 8))
+# Eight combinations are built, three get a model and follow it. The best one is then followed exactly, twice: long
+# probes see what a thin wall changes, which is less than a sample of a picture is wide. It is explored further where a
+# reference is incompatible by less than 40 %. Chosen on furniture chairs, reported on five other collections
+# (docs/benchmarks.md, "Longer probes and turned pictures").
+QUICK = Budget(
+    (
+        *(Scan(8), Probe(3, 0.08), Step(3, 3)),
+        *(*_exactly(0.1), *_exactly(0.05)),
+        *(Step(1, scatter=4, near=1.4),) * 2,
+    )
+)
 
 # Other choices with the scalars found by then. Late, the right choice is better at once; where it is not, its rivals
 # are followed only while they cost little more.

@@ -133,9 +133,8 @@ def _probed(centre: Floats, free: np.ndarray, bounds: Bounds, probe: Probe) -> I
     """One vector for each free scalar, to the side where there is room, or one to each side."""
     least, most = bounds
     for p in np.flatnonzero(free):
-        above, below = most[p] - centre[p], centre[p] - least[p]
-        one = probe.size if probe.size <= above else -probe.size
-        for side in (min(probe.size, above), -min(probe.size, below)) if probe.both else (one,):
+        above, below = (min(probe.size, room) for room in (most[p] - centre[p], centre[p] - least[p]))
+        for side in (above, -below) if probe.both else (above if above >= below else -below,):
             vector = centre.copy()
             vector[p] += side
             yield vector
