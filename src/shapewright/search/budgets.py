@@ -94,9 +94,9 @@ THOROUGH = Budget(
 # scans of 140 shapes of four categories (docs/benchmarks.md, "Scans").
 SCANNED = Budget(
     (
-        *(Scan(12), Probe(4), Step(3, scatter=2), *_exactly(0.05)),
-        *(*_OTHERS, *_exactly(0.04)),
-        *(Step(1, scatter=4, near=1.4),) * 8,
+        *(Scan(12), Probe(4, 0.08), Step(3, 3), *_exactly(0.1), *_exactly(0.05)),
+        *(*_OTHERS, *_exactly(0.1), *_exactly(0.05)),
+        *(Step(1, scatter=4, near=1.4),) * 2,
     )
 )
 
