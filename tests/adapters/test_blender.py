@@ -21,7 +21,7 @@ from shapewright.procedures import ProcedureError
 from shapewright.procedures.blender import node_group
 from shapewright.procedures.blender.installed import SETTING, words
 from shapewright.procedures.forms import written
-from shapewright.runs.helpers import helpers_of
+from shapewright.runs.helpers import copy_in, helpers_of, write_source
 
 if not (os.environ.get(SETTING) or find_spec("bpy")):
     pytest.skip(f"needs Blender: run `make test-blender`, or set {SETTING}", allow_module_level=True)
@@ -255,15 +255,14 @@ def test_a_script_makes_the_same_shapes_in_blender(shelf, tmp_path):
 
 
 def test_a_run_keeps_the_file(shelf):
-    assert helpers_of(shelf) == {"procedure.blend": (MODELS / "shelf.blend").read_bytes()}
+    assert helpers_of(shelf).contents == {"procedure/shelf.blend": (MODELS / "shelf.blend").read_bytes()}
 
 
 def test_a_linked_group_is_built_and_a_run_keeps_the_file_that_it_is_in(strange, tmp_path):
     linking = load_procedure(strange.with_name("linking.blend"))
     assert linking.name == "Wire" and linking.helpers == (strange,)
-    for name, content in helpers_of(linking).items():
-        (tmp_path / name).write_bytes(content)
-    assert len(load_procedure(tmp_path / "procedure.blend")(solid=True).faces) == 14
+    write_source(tmp_path, str(linking.path), linking.source, helpers_of(linking).contents)
+    assert len(load_procedure(copy_in(tmp_path, str(linking.path)))(solid=True).faces) == 14
 
 
 def test_another_file_is_another_procedure(shelf, tmp_path):

@@ -13,7 +13,7 @@ from shapewright.building.pool import Workers
 from shapewright.fitting.samples import write_samples
 from shapewright.procedures.openscad import reading
 from shapewright.processes import Limits
-from shapewright.runs.helpers import helpers_of, read_helpers, write_source
+from shapewright.runs.helpers import copy_in, helpers_of, read_helpers, write_source
 from shapewright.studio.bench.workshop import Broken, Workshop
 
 pytest.importorskip("openscad_evaluator", reason="needs the extra openscad; run `make test-adapters`")
@@ -96,9 +96,10 @@ def test_what_is_called_can_be_pickled(box):
 def test_a_run_keeps_what_the_file_uses(box, tmp_path):
     run = tmp_path / "run"
     run.mkdir()
-    write_source(run, str(box.path), box.source, helpers_of(box))
-    assert set(read_helpers(run)) == {"lib/feet.scad", "sizes.scad"}
-    copy = sw.load_procedure(f"{run / 'procedure.scad'}:box")
+    write_source(run, str(box.path), box.source, helpers_of(box).contents)
+    assert set(read_helpers(run)) == {f"procedure/{name}" for name in ("lib/feet.scad", "sizes.scad", box.path.name)}
+    (box.path.parent / "sizes.scad").unlink()
+    copy = sw.load_procedure(f"{copy_in(run, str(box.path))}:box")
     assert copy.name == "box" and copy().extent == pytest.approx(box().extent)
 
 

@@ -1,7 +1,8 @@
 """Building many shapes in worker processes that a bad procedure cannot take down with it."""
 
+from shapewright.building.opened import Opened, is_own
 from shapewright.building.outcomes import Build, Failure, commonest_place, describe_failures
 from shapewright.building.pool import Workers
 from shapewright.processes import Limits
 
-__all__ = ["Build", "Failure", "Limits", "Workers", "commonest_place", "describe_failures"]
+__all__ = ["Build", "Failure", "Limits", "Opened", "Workers", "commonest_place", "describe_failures", "is_own"]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
+from shapewright.building.opened import Opened
 from shapewright.parameters import Parameters
 from shapewright.procedures import Place, ProcedureError
 from shapewright.processes import Loss
@@ -69,6 +70,7 @@ class Build:
         failure: why it failed, None when it did not.
         seconds: wall time.
         process: number of the process that it was built in; 0 where that is not known.
+        opened: files that the author's code read, where the process did not tell them before.
     """
 
     parameters: Parameters
@@ -76,6 +78,7 @@ class Build:
     failure: Failure | None = None
     seconds: float = 0.0
     process: int = 0
+    opened: tuple[Opened, ...] = field(default=(), compare=False, repr=False)
 
 
 def describe_failures(builds: Sequence[Build]) -> str:

@@ -16,6 +16,7 @@ from dataclasses import replace
 
 import cloudpickle
 
+from shapewright.building.opened import Opened
 from shapewright.building.outcomes import Build, Failure, commonest_place, describe_failures
 from shapewright.building.process import WorkerProcess
 from shapewright.parameters import Parameters
@@ -40,6 +41,7 @@ class Workers:
 
     Attributes:
         costs: seconds of every shape that was built so far, also while others are.
+        opened: files of the author's that were read meanwhile.
     """
 
     def __init__(
@@ -50,6 +52,7 @@ class Workers:
         limits = limits or Limits()
         self.limits = replace(limits, seconds=procedure.seconds) if procedure.seconds else limits
         self.costs: list[float] = []
+        self.opened: set[Opened] = set()
         self._payload, self._shown = _payload(procedure), shown
         self._pool = Pool(lambda: WorkerProcess(self._payload, self.limits, shown), self.count)
 
@@ -177,6 +180,7 @@ class Workers:
         for i, build in zip(piece, outcome, strict=False):
             results[i] = build
             self.costs.append(build.seconds)
+            self.opened.update(build.opened)
         if len(outcome) < len(piece):
             tasks.put(piece[len(outcome) :])
         return worker
@@ -194,7 +198,7 @@ def _payload(procedure: Procedure) -> bytes:
     target = f"{procedure.path}:{procedure.name}" if procedure.path else procedure
     try:
         # What the procedure needs is found by this process's path: a worker needs that before it reads the procedure.
-        return pickle.dumps((list(sys.path), bytes(cloudpickle.dumps(target))))
+        return pickle.dumps((list(sys.path), procedure.working, bytes(cloudpickle.dumps(target))))
     except Exception as error:
         raise ProcedureError(
             f"it cannot be sent to the worker processes ({error}); "

@@ -10,8 +10,10 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from multiprocessing.connection import Connection
+from pathlib import Path
 
 from shapewright.building.clock import TimeLimit, time_limit
+from shapewright.building.opened import Readings
 from shapewright.building.outcomes import Build, Failure
 from shapewright.building.prints import Prints
 from shapewright.parameters import Parameters
@@ -26,6 +28,8 @@ _ANSWER_WITHIN = 0.25
 _READY = "ready"
 _OWN = tuple(sys.path)
 """Where a new process looks for modules."""
+_HOME = Path.cwd()
+"""The working folder of a new process."""
 
 
 def serve(connection: Connection) -> None:
@@ -35,6 +39,7 @@ def serve(connection: Connection) -> None:
     try:
         with _one_core():
             payload, limits, kept = connection.recv()
+            readings = Readings()
             printed = Prints.of_streams() if kept else None
             procedure = _received(payload)
             if printed:
@@ -47,7 +52,9 @@ def serve(connection: Connection) -> None:
                 procedure = _received(requests)
                 connection.send(_READY)
             else:
-                connection.send(_build_some(procedure, requests, limits, printed, lambda: connection.send(AT_WORK)))
+                connection.send(
+                    _build_some(procedure, requests, limits, printed, readings, lambda: connection.send(AT_WORK))
+                )
     except ProcedureError as error:  # of a file that does not load: the parent ends this process
         connection.send(Failure("raised", error.message, error.place))
 
@@ -58,8 +65,9 @@ def _received(payload: bytes) -> Procedure:
     Its modules are looked for where its own process looks for them. Where that fails, this process's own places come
     first: a library may change the search for its second import, as bpy does, so that no other process can import it.
     """
-    theirs, inner = pickle.loads(payload)
+    theirs, working, inner = pickle.loads(payload)
     sys.path[:] = theirs
+    os.chdir(working or _HOME)
     try:
         return _read(inner)
     except ProcedureError as error:
@@ -106,6 +114,7 @@ def _build_some(
     requests: list[Parameters],
     limits: Limits,
     printed: Prints | None,
+    readings: Readings,
     compiling: Callable[[], object],
 ) -> list[Build]:
     """Build in order until a fraction of the time limit has passed, so that a hang is noticed soon."""
@@ -120,6 +129,8 @@ def _build_some(
             builds.append(Build(parameters, None, late, limits.seconds))
         if printed:
             builds[-1] = _with_printed(builds[-1], printed.taken())
+        if opened := readings.taken(procedure.path):
+            builds[-1] = replace(builds[-1], opened=opened)
         if time.perf_counter() - started > _ANSWER_WITHIN * limits.seconds:
             break
     return builds

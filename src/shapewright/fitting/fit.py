@@ -80,4 +80,4 @@ def fit(
         each.name: turns[fitted.names.index(each.of)] for each in like
     }
     results, groups = followed(references, like, results, groups, turned)
-    return recorded(procedure, judge, lesson, references, results, groups, turned, stages)
+    return recorded(procedure, judge, lesson, references, results, groups, turned, stages, crew.opened)

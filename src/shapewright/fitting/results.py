@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 
-from shapewright.building import Build
+from shapewright.building import Build, Opened
 from shapewright.comparison.grouping import Group
 from shapewright.fitting.learning import Lesson
 from shapewright.fitting.replicas import Replicas
 from shapewright.judging.judge import Judge
 from shapewright.parameters import to_record
 from shapewright.procedures import Procedure
-from shapewright.progress import Listener, Progress, Stages
+from shapewright.progress import Listener, Notice, Progress, Stages
 from shapewright.references import Collection
 from shapewright.references.standing import AUTO, axes_record
-from shapewright.runs.helpers import helpers_of
+from shapewright.runs.helpers import helpers_of, not_kept
 from shapewright.runs.iteration import Iteration, draw_pictures
 from shapewright.runs.result import Result
 from shapewright.runs.versions import versions
@@ -110,9 +110,16 @@ def recorded(
     groups: tuple[Group, ...],
     turns: Mapping[str, int],
     stages: Stages,
+    opened: Iterable[Opened] = (),
 ) -> Iteration:
-    """The iteration, with pictures of its results. turns: quarter turns of references about the up axis, by name."""
+    """The iteration, with pictures of its results.
+
+    turns: quarter turns of references about the up axis, by name. opened: files that the procedure read.
+    """
     stages.begin("picture", 1)
+    kept = helpers_of(procedure, opened)
+    if kept.too_large:
+        stages.tell(Notice("not kept", not_kept(kept.too_large)))
     predictor = lesson.predictor
     pictures = draw_pictures(results, judge.settings.workers)
     stages.end()
@@ -128,9 +135,10 @@ def recorded(
             "digest": procedure.digest,
             "parameters": [to_record(parameter) for parameter in procedure.space],
             **procedure.facts.stated,
+            **({"not_kept": [str(file) for file in kept.too_large]} if kept.too_large else {}),
         },
         source=procedure.source,
-        helpers=helpers_of(procedure),
+        helpers=kept.contents,
         collection={
             "source": references.source,
             "origins": list(references.origins),

@@ -15,6 +15,7 @@ object is picklable, and every process reads the file anew. The suffixes are in 
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import importlib
 import inspect
@@ -71,19 +72,27 @@ _HELPERS = "__shapewright_helpers__"
 """The name under which an executed file has the files that it imported from its own folder."""
 
 
-def load_procedure(source: str | Path) -> Procedure:
+def load_procedure(source: str | Path, working: Path | None = None) -> Procedure:
     """The one procedure of a Python file, of a module that can be imported, or of a file of another program.
 
     source: a Python file in any folder, with its own imports; a file and the name of one of several (``file.py:name``);
         a module and a name (``package.module:name``); an OpenSCAD file (``model.scad``); a geometry node group
         (``model.blend:Group``); a spec of a command (``spec.toml``). A name may also be that of a function without
         ``@procedure``.
+    working: the working folder while its file is read, and while worker processes build its shapes; by default that of
+        the process.
 
     Of a file those that are defined in it count; if there are none, those that it imports or gets made elsewhere.
     Raises ProcedureError, pointing at the author's line, when the file is missing, fails, or has not one procedure.
     """
-    if foreign := _foreign(source):
-        return foreign
+    with contextlib.chdir(working) if working else contextlib.nullcontext():
+        loaded = _foreign(source) or _loaded(source)
+    loaded.working = working
+    return loaded
+
+
+def _loaded(source: str | Path) -> Procedure:
+    """The procedure of a file or a module in Python."""
     path, name, module = _from_module(str(source)) or _from_file(source)
     place = path or module.__name__
     named = {key: value for key, value in vars(module).items() if isinstance(value, Procedure)}

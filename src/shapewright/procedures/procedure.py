@@ -29,6 +29,7 @@ class Procedure:
         path: the author's file, if it was loaded from one.
         helpers: files that it imported or used from its own folder.
         facts: what is true of all its shapes.
+        working: the working folder that it is to be built in; None for that of the process.
         seconds: wall time that building a shape may take, where its file says so; it goes before the settings.
     """
 
@@ -42,6 +43,7 @@ class Procedure:
         self.signature = signature_of(self.function, names)
         self.path: Path | None = None
         self.helpers: tuple[Path, ...] = ()
+        self.working: Path | None = None
         self.facts = facts or Facts()
         self.seconds: float | None = None
 

@@ -7,26 +7,31 @@ from pathlib import Path
 from shapewright.procedures import Procedure, ProcedureError, load_procedure, source_digest, text_of
 from shapewright.references import Collection, CollectionError
 from shapewright.runs.folder import RunError
-from shapewright.runs.helpers import copy_in
+from shapewright.runs.helpers import copy_in, not_kept, unchanged, working_in
 from shapewright.runs.iteration import Iteration
 
 _SHOWN = 3
+_AGAIN = "Fit again with: shapewright fit PROCEDURE REFERENCES --explain"
 
 
 def procedure_of(run: Path, iteration: Iteration) -> Procedure:
-    """The procedure that a run was made with: the author's file while it is unchanged, the run's copy of it after that.
+    """The procedure that a run was made with: the author's file while it and what it uses are unchanged.
 
-    Raises RunError when neither can be loaded.
+    After that the run's copy, which uses the files that the run keeps. Raises RunError when neither can be loaded.
     """
     name, path = iteration.procedure["name"], iteration.procedure["path"]
-    if path and Path(path).is_file() and source_digest(text_of(Path(path))) == iteration.procedure["digest"]:
+    there = path and Path(path).is_file() and unchanged(iteration.helpers, Path(path))
+    if there and source_digest(text_of(Path(path))) == iteration.procedure["digest"]:
         return load_procedure(f"{path}:{name}")
+    if lacking := iteration.procedure.get("not_kept"):
+        raise RunError(f"{run}: the procedure has changed since this run, and {not_kept(lacking)}.\n{_AGAIN}")
+    run = run.absolute()
     try:
-        return load_procedure(f"{copy_in(run, path or '')}:{name}")
+        return load_procedure(f"{copy_in(run, path or '')}:{name}", working_in(run))
     except ProcedureError as error:
         raise RunError(
             f"{run}: the procedure has changed since this run, and the run's copy of its text cannot be loaded: "
-            f"{error}\nFit again with: shapewright fit PROCEDURE REFERENCES --explain"
+            f"{error}\n{_AGAIN}"
         ) from error
 
 
