@@ -107,6 +107,10 @@ def test_another_python_builds_and_is_kept(tmp_path, python):
         made(width=3.9)
     with pytest.raises(ProcedureError, match="ModuleNotFoundError: No module named 'shapes'"):
         sw.load_procedure(written(tmp_path, SPEC.replace("wedges:", "shapes:"), f'python = "{python}"\n'))()
+    with pytest.raises(ProcedureError, match=r"'infinigen2'.*infinigen/bin/pip install infinigen==2.0.0a3"):
+        sw.load_procedure(
+            written(tmp_path, SPEC.replace("wedges:", "infinigen2.objects.vase:"), f'python = "{python}"\n')
+        )()
     with pytest.raises(ProcedureError, match="cannot be started: No such file"):
         sw.load_procedure(written(tmp_path, head='python = "/no/python"\n'))()
 

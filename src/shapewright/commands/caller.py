@@ -1,13 +1,16 @@
 """The program that calls a function in another Python, which has no shapewright; see ``processes.resident``.
 
 It uses what Python 3.8 has, and nothing else. The first request says what is called; a further one has ``arguments``,
-and ``out``, an OBJ file to write. An answer has ``file``, the file that holds the shape, or ``error``.
+and ``out``, an OBJ file to write. An answer has ``file``, the file that holds the shape, and ``up``, the axis that
+points up in it where the library has one; or ``error``, and ``missing``, the package that is not there.
 """
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import importlib
+import importlib.util
 import json
 import os
 import re
@@ -18,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 HELLO = b"\0shapewright\0"
+FOLDER = Path(__file__).resolve().with_name("procfunc")
 
 
 def main() -> None:
@@ -33,9 +37,11 @@ def main() -> None:
             if function is None:
                 function = found(**request)
             else:
-                answer["file"] = written(function(**request["arguments"]), request["out"])
+                answer.update(built(function, request["arguments"], request["out"]))
         except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever it raises is an answer
             place = traceback.extract_tb(error.__traceback__)[-1]
+            if isinstance(error, ImportError):
+                answer["missing"] = str(error.name).partition(".")[0]
             answer["error"] = f"{type(error).__name__}: {error} ({place.filename}:{place.lineno})"
         text = json.dumps(answer).encode()
         answers.write(struct.pack(">I", len(text)) + text)
@@ -48,6 +54,25 @@ def found(target: str, home: str, environment: dict[str, str]) -> Any:
     sys.path[0] = home
     module, _, name = target.partition(":")
     return functools.reduce(getattr, name.split("."), importlib.import_module(module))
+
+
+def built(function: Any, arguments: dict[str, Any], out: str) -> dict[str, Any]:
+    """The answer to a request. What Blender holds of it is removed."""
+    with beside("meshes").removed_afterwards() if "bpy" in sys.modules else contextlib.nullcontext():
+        result = function(**arguments)
+        objects = beside("meshes").objects_of(result) if "bpy" in sys.modules else []
+        if objects:
+            return {"file": beside("meshes").written(objects, out), "up": "z"}
+        return {"file": written(result, out)}
+
+
+@functools.lru_cache(None)
+def beside(name: str) -> Any:
+    """A module of the folder procfunc, which only what uses Blender needs."""
+    spec: Any = importlib.util.spec_from_file_location(f"shapewright_{name}", f"{FOLDER}/{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def written(result: Any, out: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,8 @@ from shapewright.processes.resident import Gone, Resident
 from shapewright.shapes import Shape
 
 _PROGRAM = Path(__file__).with_name("caller.py")
+_INFINIGEN = ("infinigen2", "procfunc", "bpy")
+"""Packages that come with Infinigen 2, which wants a Python of its own."""
 _kept: dict[tuple[str | None, str], Resident] = {}
 """The processes that were started, by their Python and what they call: libraries take seconds to load."""
 
@@ -32,8 +35,8 @@ def call_elsewhere(spec: Spec, values: dict[str, Any]) -> Shape:
             how = f"its Python ended while it built ({words_of(status)})" if status is not None else "its Python ended"
             raise ProcedureError(f"{said}; {how}" if said else how, spec.place, "crash") from gone
         if "error" in answer:
-            raise ProcedureError(answer["error"], spec.place)
-        return shape_of(Path(answer["file"]), spec.facts, started, spec.place)
+            raise _error(answer, spec)
+        return shape_of(Path(answer["file"]), spec.facts, started, spec.place, answer.get("up"))
 
 
 def _resident(spec: Spec) -> Resident:
@@ -47,6 +50,16 @@ def _resident(spec: Spec) -> Resident:
             raise ProcedureError(f"{spec.python} cannot be started: {error.strerror}", spec.place) from error
         if "error" in made.first.header:
             made.stop()
-            raise ProcedureError(made.first.header["error"], spec.place)
+            raise _error(made.first.header, spec)
         _kept[key] = made
     return _kept[key]
+
+
+def _error(answer: Mapping[str, Any], spec: Spec) -> ProcedureError:
+    said = answer["error"]
+    if answer.get("missing") in _INFINIGEN:
+        said += (
+            "; make one that has it: python3.11 -m venv infinigen && infinigen/bin/pip install infinigen==2.0.0a3; "
+            'then say: python = "infinigen/bin/python"'
+        )
+    return ProcedureError(said, spec.place)

@@ -17,7 +17,7 @@ _SHOWN = 5
 """Other files that a message names at most."""
 
 
-def shape_of(out: Path, facts: Facts, started: float, place: Place | None) -> Shape:
+def shape_of(out: Path, facts: Facts, started: float, place: Place | None, up: str | None = None) -> Shape:
     """The shape of a file, in the axes and the unit of the facts, with names of parts as labels.
 
     A file whose format states its axis that points up, or its unit, as glTF does, is taken by its word.
@@ -28,6 +28,7 @@ def shape_of(out: Path, facts: Facts, started: float, place: Place | None) -> Sh
         facts: what the author says of all shapes.
         started: the time at which the program was started, as ``time.time()`` gives it.
         place: the author's line, for the error.
+        up: the axis that points up in the file, where the program knows it and its format does not state it.
     """
     try:
         written = out.stat()
@@ -46,8 +47,8 @@ def shape_of(out: Path, facts: Facts, started: float, place: Place | None) -> Sh
     shape = found.shape
     if not isinstance(shape, Mesh | Drawing):
         raise ProcedureError(f"the program wrote points into {out.name}; a shape needs surfaces", place)
-    if found.up is not None and isinstance(shape, Mesh):
-        shape = facts.laid(Facts.of({"up": found.up}).stood(shape))
+    if (axis := found.up or up) is not None and isinstance(shape, Mesh):
+        shape = facts.laid(Facts.of({"up": axis}).stood(shape))
     if found.unit and facts.metres and isinstance(shape, Mesh):
         shape = shape.transformed(np.eye(3) * (found.unit / facts.metres))
     return shape
