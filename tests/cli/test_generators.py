@@ -48,9 +48,33 @@ def test_a_data_file_beside_the_procedure_is_found_by_its_place_and_by_the_worki
     assert run(tmp_path, body, "-n", "2", "--out", "o").returncode == 0
 
 
+REFERENCE = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n"
+LISTENING = """
+import os, sys
+from shapewright.cli import bars, main
+
+def tell(notice):
+    print(notice.kind, "torch" in sys.modules, "numba" in sys.modules, flush=True)
+    os._exit(0)
+
+bars._print_notice = tell
+main.main()
+"""
+
+
+def test_the_first_word_of_a_fit_comes_before_torch_is_loaded(tmp_path):
+    (tmp_path / "refs").mkdir()
+    (tmp_path / "refs" / "a.obj").write_text(REFERENCE)
+    (tmp_path / "p.py").write_text(HEAD + "    time.sleep(0.1)\n" + BOX)
+    call = [sys.executable, "-c", LISTENING, "fit", "p.py", "refs", "--workers", "2", "--out", "r"]
+    ran = subprocess.run(call, cwd=tmp_path, capture_output=True, text=True, timeout=200)
+    kind, *loaded = ran.stdout.split()
+    assert kind in ("pace", "waiting") and loaded == ["False", "False"], ran.stderr  # a busy machine says that it waits
+
+
 def test_a_fit_of_a_slow_procedure_says_what_it_costs_and_lasts_as_long_as_it_may(tmp_path):
     (tmp_path / "refs").mkdir()
-    (tmp_path / "refs" / "a.obj").write_text("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n")
+    (tmp_path / "refs" / "a.obj").write_text(REFERENCE)
     slow = "    time.sleep(0.1)\n" + BOX
     ran = run(tmp_path, slow, "refs", "--within", "6s", "--epochs", "1", "--workers", "2", "--out", "r", command="fit")
     assert ran.returncode == 0, ran.stderr

@@ -66,6 +66,10 @@ class Workers:
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the processes."""
         self._pool.close()
 
     def turn_to(self, procedure: Procedure) -> None:

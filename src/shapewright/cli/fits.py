@@ -14,7 +14,6 @@ from shapewright.cli.bars import interruptible
 from shapewright.cli.console import err, iteration_record, print_iteration, print_json
 from shapewright.cli.options import Front, Json, Keep, PresetOption, ProcedureArgument, Up, with_settings
 from shapewright.cli.runs import explain_saved, judged_by_marks
-from shapewright.parameters import Parameters
 from shapewright.procedures import load_procedure
 from shapewright.runs.folder import (
     RunError,
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
     from shapewright.references import Collection
     from shapewright.runs.iteration import Iteration
 
+_NOTHING = "nothing of this run was written; earlier runs are as they were"
 _NAMED = 4  # names of references in a line
 _SIDES = 4  # that look like the front of a shape that has none
 
@@ -76,57 +76,52 @@ def fit(
     json: Json = False,
 ) -> None:
     """Find the parameters of every reference, build replicas, and report what the procedure cannot make yet."""
+    from shapewright.fitting.pacing.opening import Opening
     from shapewright.references import Collection
 
     folder = (out_dir or next_run(Path("runs"))).absolute()
     check_free(folder)
-    settings = Settings.preset(preset, **chosen)
-    if marks:
-        settings = Settings.preset(preset, **{**judged_by_marks(folder, settings.judge), **chosen})
-    author, loaded = load_procedure(procedure), Collection.load(references, up=up, front=front, keep=keep or ())
-    check_writable(folder)
-    # torch takes seconds to load: what is wrong with the files is said before.
-    from shapewright.fitting.pictures import suited_to
-    from shapewright.runs.iteration import Iteration
+    settings, author = Settings.preset(preset, **chosen), load_procedure(procedure)
+    # torch takes seconds to load: before it the first shapes are begun, and what is wrong with the files is said.
+    with interruptible(_NOTHING) as listen, Opening(author, settings, listen, previous is not None) as opening:
+        loaded = Collection.load(references, up=up, front=front, keep=keep or ())
+        check_writable(folder)
+        opening.wait()
+        if marks:
+            settings = Settings.preset(preset, **{**judged_by_marks(folder, settings.judge), **chosen})
+        from shapewright.fitting.fit import fit as iterate
+        from shapewright.fitting.pictures import suited
+        from shapewright.fitting.standing import stand
+        from shapewright.runs.iteration import Iteration
 
-    earlier = Iteration.load(previous) if previous else None
-    loaded = suited_to(author, loaded, settings)
+        earlier = Iteration.load(previous) if previous else None
+        opening.builds()
+        loaded = suited(loaded, opening.crew)
+        if explain:
+            from shapewright.feedback.explanation import check_explainable
+
+            check_explainable(loaded)
+        known = suggested_parameters(previous, author.space.names) if previous else None
+        loaded = stand(author, loaded, settings, listen)
+        print_axes(loaded)
+        iteration = iterate(author, loaded, settings, listen, cache_folder(), earlier, known, opening)
+    _save(iteration, folder)
     if explain:
-        from shapewright.feedback.explanation import check_explainable
-
-        check_explainable(loaded)
-    known = suggested_parameters(previous, author.space.names) if previous else None
-    iteration, folder = fit_and_save(author, loaded, settings, folder, earlier, explain, known)
+        _explain(iteration, author, loaded, folder)
     if json:
         print_json(iteration_record(iteration, folder))
     else:
         print_iteration(iteration, folder)
 
 
-def fit_and_save(
-    procedure: Procedure,
-    references: Collection,
-    settings: Settings,
-    folder: Path,
-    previous: Iteration | None = None,
-    explained: bool = False,
-    known: Mapping[str, Sequence[Parameters]] | None = None,
-) -> tuple[Iteration, Path]:
-    """Run and save one iteration with its report, then explain it if wanted; returns it and the folder that it is in.
-
-    Raises RunError where it cannot be explained; the run is saved by then.
-    """
+def fit_and_save(procedure: Procedure, references: Collection, settings: Settings, folder: Path) -> Iteration:
+    """Run and save one iteration with its report."""
     from shapewright.fitting.fit import fit as iterate
-    from shapewright.fitting.standing import stand
 
-    with interruptible("nothing of this run was written; earlier runs are as they were") as listen:
-        references = stand(procedure, references, settings, listen)
-        print_axes(references)
-        iteration = iterate(procedure, references, settings, listen, cache_folder(), previous, known)
+    with interruptible(_NOTHING) as listen:
+        iteration = iterate(procedure, references, settings, listen, cache_folder())
     _save(iteration, folder)
-    if explained:
-        _explain(iteration, procedure, references, folder)
-    return iteration, folder
+    return iteration
 
 
 def _save(iteration: Iteration, folder: Path) -> None:

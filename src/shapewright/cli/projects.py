@@ -78,7 +78,7 @@ def demo(
         if not json:
             out.print(f"\n[bold]tables, {version}[/]", highlight=False)
         settings = Settings(seed=seed, workers=workers)
-        iteration, folder = fit_and_save(load_procedure(procedures.path(version, drawings)), loaded, settings, folder)
+        iteration = fit_and_save(load_procedure(procedures.path(version, drawings)), loaded, settings, folder)
         if not json:
             print_iteration(iteration, folder)
     if not (out_dir / "procedure.py").exists():

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 
 from shapewright.building import Workers
 from shapewright.fitting.facing import quarter_turns
 from shapewright.fitting.learning import learn, learn_more
+from shapewright.fitting.pacing.opening import Opening
 from shapewright.fitting.pacing.pace import paced
 from shapewright.fitting.pacing.stock import Stock
 from shapewright.fitting.pictures import suited
@@ -33,6 +35,7 @@ def fit(
     cache: Path | None = None,
     previous: Iteration | None = None,
     known: Mapping[str, Sequence[Parameters]] | None = None,
+    opening: Opening | None = None,
 ) -> Iteration:
     """One iteration: find parameters for every reference, and say which the procedure cannot replicate yet.
 
@@ -49,6 +52,7 @@ def fit(
         previous: an iteration with an earlier version of the procedure, to resume. Its parameters, network and cameras
             are carried over, which takes a third of the time.
         known: parameters that are worth a trial, by the name of their reference: those of a suggestion, for instance.
+        opening: the procedure's first samples with these settings, where they are being built already.
 
     Raises:
         ProcedureError: the procedure cannot build shapes.
@@ -58,12 +62,14 @@ def fit(
     settings = settings or Settings()
     references = references if references.taught else stand(procedure, references, settings, progress)
     references = for_procedure(references, procedure)
-    with Workers.of(procedure, settings) as crew:
+    with nullcontext(opening.crew) if opening else Workers.of(procedure, settings) as crew:
+        first = opening.builds() if opening else []
         references = prepared(suited(references, crew), settings, settings.workers)
         like = following(references, settings, settings.workers)
         stages, fitted = Stages(progress and telling(progress, like)), leading(references, like)
         start = Start.of(fitted, procedure.space, previous, known)
-        stock = Stock(crew, cache)
+        stock = Stock(crew, cache, first)
+        stages.notices += opening.notices if opening else []
         settings = paced(stock, settings, stages, start)
         lesson = learn(crew, settings, stages, start, stock)
         stock.keep()

@@ -1,10 +1,9 @@
-import pytest
-
 import shapewright as sw
 from shapewright.building import Workers
-from shapewright.fitting.pacing import pace
-from shapewright.fitting.pacing.pace import lasting, paced
-from shapewright.fitting.pacing.stock import PROBES, Stock
+from shapewright.fitting.pacing import opening
+from shapewright.fitting.pacing.opening import PROBES
+from shapewright.fitting.pacing.pace import paced
+from shapewright.fitting.pacing.stock import Stock
 from shapewright.fitting.start import Start
 from shapewright.modelling.solids import box
 from shapewright.progress import Stages
@@ -40,7 +39,7 @@ def notices(told):
 
 
 def test_what_samples_take_is_told_before_they_are_built_and_the_bar_moves_from_the_first(tmp_path, monkeypatch):
-    monkeypatch.setattr(pace, "_PATIENCE", 1000.0)  # a busy machine tells that it waits as well
+    monkeypatch.setattr(opening, "_PATIENCE", 1000.0)  # a busy machine tells that it waits as well
     told = []
     settings = sw.Settings(workers=1)
     same, _ = begun(slow(tmp_path, 0.1), settings, told)
@@ -58,7 +57,7 @@ def test_a_quick_procedure_is_told_nothing(tmp_path):
 
 
 def test_a_word_comes_before_the_first_shape_is_there(tmp_path, monkeypatch):
-    monkeypatch.setattr(pace, "_PATIENCE", 0.05)
+    monkeypatch.setattr(opening, "_PATIENCE", 0.05)
     told = []
     begun(slow(tmp_path, 0.6), sw.Settings(workers=1), told)
     first = notices(told)[0]
@@ -78,10 +77,3 @@ def test_a_limit_of_time_becomes_numbers_and_the_first_shapes_are_samples(tmp_pa
     (notice,) = notices(told)
     assert notice.kind == "within" and notice.text.endswith("fit in 20 s") and f"{found.samples} samples" in notice.text
     assert len(stock._built) == PROBES
-
-
-@pytest.mark.parametrize(
-    ("seconds", "words"), [(0.254, "0.25 s"), (1.0, "1 s"), (44.6, "45 s"), (480.0, "8 min"), (5760.0, "1.6 h")]
-)
-def test_a_time_in_words(seconds, words):
-    assert lasting(seconds) == words

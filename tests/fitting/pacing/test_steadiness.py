@@ -23,8 +23,8 @@ UNSTEADY = [
     ),
     ("    return box((size + time.time() % 1, 1, 1))\n", "time.time is another each time"),
     (
-        "    for name in {'apple', 'pear', 'fig', 'plum', 'nut', 'kiwi', 'lime', 'date'}:\n"
-        "        return box((size, 1 + len(name) + ord(name[0]), 1))\n",
+        "    depth = 1.0\n    for name in {'apple', 'pear', 'fig', 'plum', 'nut', 'kiwi', 'lime', 'date'}:\n"
+        "        depth = 0.5 * depth + ord(name[0])\n    return box((size, depth, 1))\n",
         "the order of a set decides",
     ),
 ]

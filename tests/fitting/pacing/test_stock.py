@@ -7,7 +7,8 @@ import pytest
 import shapewright as sw
 from shapewright.building import Workers
 from shapewright.fitting.pacing import filing
-from shapewright.fitting.pacing.stock import PROBES, Stock
+from shapewright.fitting.pacing.opening import PROBES
+from shapewright.fitting.pacing.stock import Stock
 from shapewright.shapes import Drawing, shape_digest
 
 SOURCE = """

@@ -19,8 +19,6 @@ from shapewright.runs.versions import version_of
 from shapewright.shapes import Mesh, Shape, shape_digest
 from shapewright.shapes.conversion.libraries import kernel
 
-PROBES = 8
-"""First samples of every run, which are built anew: they tell the cost of a shape, and whether kept ones hold."""
 _PROBED = 16
 """Samples that are built anew after an edit, besides: at least."""
 _PROBED_MOST = 48
@@ -40,9 +38,13 @@ class Stock:
     built anew, among them one for each class of each parameter; all must be equal, or nothing is used again.
     """
 
-    def __init__(self, crew: Workers, folder: Path | None = None) -> None:
-        """folder: where samples are kept; without one, or without a file of the procedure, none are."""
+    def __init__(self, crew: Workers, folder: Path | None = None, first: Sequence[Build] = ()) -> None:
+        """folder: where samples are kept; without one, or without a file of the procedure, none are.
+
+        first: the first samples of this run, where they are built already.
+        """
         self.crew = crew
+        self._first = list(first)
         self._path: Path | None = None
         self._built: dict[Key, Build] = {}
         self._kept: dict[Key, Build] = {}
@@ -63,7 +65,8 @@ class Stock:
 
         Raises ProcedureError where the procedure is broken.
         """
-        builds = self.crew.build(vectors, progress, give_up=True)
+        there = [build.parameters for build in self._first] == list(vectors)
+        builds = self._first if there else self.crew.build(vectors, progress, give_up=True)
         self._take(builds)
         return builds
 

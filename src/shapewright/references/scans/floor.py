@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from shapewright.references.orientation import AXES, Orientation
 from shapewright.references.scans.strays import strays
@@ -137,6 +136,8 @@ def _reaches_further(on: Floats, above: Floats, height: float) -> bool:
 
 def _under(positions: Floats, on: NDArray[np.bool_], feet: NDArray[np.bool_], thickness: float) -> NDArray[np.bool_]:
     """Which points of the floor something stands on: they have feet right above them."""
+    from scipy.spatial import cKDTree  # it takes half a second to load
+
     under = np.zeros(len(positions), dtype=bool)
     if feet.any():
         under[on] = cKDTree(positions[feet]).query(positions[on])[0] <= _NEAR * thickness

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from shapewright.shapes import Floats, Points
 
@@ -20,6 +19,8 @@ def with_normals(points: Points) -> Points:
     Where the sensor is known a normal looks to it. Else it looks to the sides that see the point, from 26 directions;
     one that no side sees goes by its neighbours.
     """
+    from scipy.spatial import cKDTree  # it takes half a second to load
+
     known = np.zeros(len(points), dtype=bool) if points.normals is None else points.normals.any(axis=1)
     if known.all() or len(points) <= _NEIGHBOURS:
         return points

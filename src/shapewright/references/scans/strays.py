@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from shapewright.shapes import Floats
 
@@ -25,6 +22,10 @@ _APART = 0.04  # of the largest extent, that strays are off; closer to the surfa
 
 def strays(positions: Floats) -> NDArray[np.bool_]:
     """Which points (N,) belong to no piece of the surface. positions: (N, 3), spread about evenly."""
+    from scipy.sparse import coo_matrix  # scipy takes half a second to load
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
     count = len(positions)
     if count <= _NEIGHBOURS:
         return np.zeros(count, dtype=bool)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from shapewright.shapes import Floats, Ints
 
@@ -41,6 +40,8 @@ def evened(positions: Floats) -> Ints:
 
     Cells are half way between wide and narrow, so that what is dense keeps some of its detail.
     """
+    from scipy.spatial import cKDTree  # it takes half a second to load
+
     if len(positions) <= _NEIGHBOUR:
         return np.arange(len(positions))
     distances = cKDTree(positions).query(positions, k=[_NEIGHBOUR + 1])[0][:, 0]
