@@ -53,15 +53,16 @@ def _exactly(size: float, times: int = 1) -> tuple[Move, ...]:
     return (Probe(1, size, both=True, again=True), Step(1, 3)) * times
 
 
-# Eight combinations are built, three get a model and follow it. The best one is then followed exactly, twice: long
-# probes see what a thin wall changes, which is less than a sample of a picture is wide. It is explored further where a
-# reference is incompatible by less than 40 %. Chosen on furniture chairs, reported on five other collections
-# (docs/benchmarks.md, "Longer probes and turned pictures").
+# Eight combinations are built, three get a model and follow it. The best one is then followed exactly: long probes see
+# what a thin wall changes, which is less than a sample of a picture is wide. With its scalars each single other choice
+# shows what it is worth, and the best is followed once more. It is explored further where a reference is incompatible
+# by less than 40 %. Chosen on furniture chairs and on shapes of the procedures themselves, reported on five other
+# collections (docs/benchmarks.md, "Longer probes and turned pictures").
 QUICK = Budget(
     (
-        *(Scan(8), Probe(3, 0.08), Step(3, 3)),
-        *(*_exactly(0.1), *_exactly(0.05)),
-        *(Step(1, scatter=4, near=1.4),) * 2,
+        *(Scan(8), Probe(3, 0.08), Step(3, 3), *_exactly(0.1)),
+        *(SwitchChoices("single"), Scan(16), Return(keep=1)),
+        *(*_exactly(0.05), *(Step(1, scatter=4, near=1.4),) * 2),
     )
 )
 
