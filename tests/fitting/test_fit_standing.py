@@ -5,10 +5,13 @@ import pytest
 
 import shapewright as sw
 from shapewright import Range
+from shapewright.axes.agreement import Z_UP
 from shapewright.axes.turns import TURNS
-from shapewright.fitting.standing import stand
+from shapewright.fitting.standing import lying, stand
 from shapewright.modelling.solids import box
+from shapewright.prediction.dataset import make_dataset
 from shapewright.references import Orientation
+from shapewright.rendering.cameras import starting_views
 from shapewright.report import write_report
 from shapewright.report.axes_sheet import SHEET
 
@@ -59,3 +62,67 @@ def test_an_explanation_takes_the_references_as_the_fit_did(turned):
     assert set(explained.references) == set(GIVEN)
     for name, case in explained.references.items():
         np.testing.assert_allclose(case.reference.vertices, iteration[name].reference.vertices, atol=1e-12)
+
+
+def table(
+    w: Annotated[float, Range(600, 1600)] = 1000,
+    d: Annotated[float, Range(400, 900)] = 600,
+    h: Annotated[float, Range(400, 1000)] = 700,
+):
+    """Z up, as CAD programs have it."""
+    legs = [((50, 50, h), (x * (w / 2 - 40), y * (d / 2 - 40), h / 2)) for x in (-1, 1) for y in (-1, 1)]
+    made = box((w, d, 30), at=(0, 0, h))
+    for size, at in legs:
+        made |= box(size, at=at)
+    return made
+
+
+SILENT, SAYING = sw.procedure(table), sw.procedure(up="z")(table)
+TO_Y = TURNS[Z_UP]
+
+
+def drawn(procedure, count=60, seed=0):
+    vectors = procedure.space.sample(count, seed=seed)
+    shapes = [procedure(**vector).normalised() for vector in vectors]
+    return make_dataset(procedure.space, vectors, shapes, starting_views(3), 32, 1)
+
+
+def collection(procedure, turn=None, **told):
+    shapes = [procedure(**vector) for vector in procedure.space.sample(6, seed=7)]
+    turned = {str(i): shape if turn is None else shape.transformed(turn) for i, shape in enumerate(shapes)}
+    return sw.Collection.of(turned, **told)
+
+
+@pytest.mark.parametrize(
+    ("procedure", "references", "remedies"),
+    [
+        (SILENT, collection(SILENT), None),
+        (SILENT, collection(SILENT, up="z"), ("procedure up z",)),
+        (SILENT, collection(SAYING), ("procedure up z", "references up z")),  # Y up; a table tells not which of the two
+        (SAYING, collection(SILENT), None),  # taken for files of CAD
+        (SAYING, collection(SAYING), ("references up y",)),
+        (SAYING, collection(SAYING, up="y", front="z"), None),
+        (seat, collection(seat), None),
+        (seat, collection(seat, up="z"), ("procedure up z",)),
+        (seat, collection(seat, TO_Y.T), ("procedure up z", "references up z")),
+        (seat, collection(seat, TO_Y.T, up="z"), None),
+    ],
+)
+def test_up_of_another_axis_is_told_with_what_an_author_can_say(procedure, references, remedies):
+    standing = references.standing(procedure.facts.up)
+    found = lying(standing, drawn(procedure), procedure.facts.up)
+    assert (found and found.remedies) == remedies
+
+
+def test_references_whose_up_was_looked_for_tell_nothing(turned):
+    assert lying(turned, drawn(seat), "y") is None
+
+
+def test_a_fit_tells_it_once(tmp_path):
+    heard = []
+    sw.fit(SILENT, collection(SAYING), QUICK, heard.append)
+    told = [str(event) for event in heard if event.notice and event.notice.kind == "lying"]
+    assert told == [
+        'of 6 references 6 fit clearly better when another axis is up: write @procedure(up="z") if z is up in what the '
+        "procedure builds, or say --up z if z is up in the files of the references"
+    ]

@@ -14,6 +14,7 @@ from shapewright.fitting.adaptive import around
 from shapewright.fitting.pacing.pace import paced
 from shapewright.fitting.pacing.stock import Stock
 from shapewright.fitting.sensitivity import without_effect
+from shapewright.fitting.standing import lying
 from shapewright.fitting.start import Start
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.augmentation import augmented
@@ -102,6 +103,8 @@ def learn(
     first = _draw(crew.procedure, builds, cameras, settings, kind)
     if start and not start.resumed:
         stages.answer(start.most_similar(first, settings.workers), "most similar samples")
+        if found := lying(start.references, first, crew.procedure.facts.up):
+            stages.tell(found.notice)
     builds += stock.build(vectors[FIRST:], lambda done, total: stages.step(FIRST + done, FIRST + total))
     inert = without_effect(space, shapes_of(builds, kind)[0], crew.build, settings.seed, settings.workers)
     stages.begin("render", len(vectors))

@@ -9,11 +9,19 @@ from numpy.typing import NDArray
 def nearest(references: NDArray[np.uint8], samples: NDArray[np.uint8]) -> NDArray[np.int64]:
     """Index of the sample whose pictures differ least from each reference's, (N,), by summed squares.
 
-    references: (N, C, 2, S, S); samples: (M, C, 2, S, S). Compared at half the size, which forgives small offsets.
+    references: (N, C, 2, S, S); samples: (M, C, 2, S, S).
+    """
+    return np.asarray(squares(references, samples).argmin(axis=1))
+
+
+def squares(references: NDArray[np.uint8], samples: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """By how much the pictures of each reference and of each sample differ, (N, M): summed squares of their pixels.
+
+    Compared at half the size, which forgives small offsets.
     """
     theirs, ours = _halved(references), _halved(samples)
-    squares = (theirs**2).sum(axis=1)[:, None] - 2.0 * theirs @ ours.T + (ours**2).sum(axis=1)[None, :]
-    return np.asarray(squares.argmin(axis=1))
+    found = (theirs**2).sum(axis=1)[:, None] - 2.0 * theirs @ ours.T + (ours**2).sum(axis=1)[None, :]
+    return np.asarray(np.maximum(found, 0.0))
 
 
 def _halved(images: NDArray[np.uint8]) -> NDArray[np.float32]:
