@@ -1,6 +1,7 @@
 import numpy as np
+import pytest
 
-from shapewright.parameters import Binary, Excess, Integer, ParameterSpace, Scalar
+from shapewright.parameters import Binary, Excess, Integer, ParameterSpace, Scalar, whole_number
 
 SPACE = ParameterSpace(
     (
@@ -72,3 +73,16 @@ def test_an_integer_has_no_margins():
 def test_a_longer_range_of_an_integer_adds_at_least_what_is_asked_for():
     assert Integer("n", 1, 2, 1).widened() == Integer("n", 1, 3, 1)
     assert Integer("n", 1, 2, 1).widened(least=2) == Integer("n", 1, 4, 1)
+
+
+@pytest.mark.parametrize(("values", "kind"), [(2, Integer), (10, Integer), (11, Scalar), (26, Scalar), (2000, Scalar)])
+def test_an_integer_of_more_than_ten_values_is_a_number_that_is_rounded(values, kind):
+    hole = whole_number("hole", 5, 4 + values, 5)
+    assert isinstance(hole, kind) and bool(hole.classes) == (kind is Integer)
+    numbers = range(5, 5 + values)
+    decoded = [hole.decode(hole.encode(number)) for number in numbers]
+    assert decoded == list(numbers) and {type(number) for number in decoded} == {int}
+    if kind is Scalar:
+        between = [hole.decode(encoded) for encoded in np.linspace(0, 1, 7)]
+        assert {type(number) for number in between} == {int}
+        assert between == sorted(between) and (between[0], between[-1]) == (5, 4 + values)

@@ -12,6 +12,7 @@ from shapewright.parameters import Binary, Choice, ParameterSpace, Scalar
 from shapewright.prediction import devices
 from shapewright.prediction.dataset import make_dataset
 from shapewright.prediction.heads import head_of
+from shapewright.prediction.inference import infer
 from shapewright.prediction.network import CompactNetwork, loss, make_network, spread_loss
 from shapewright.prediction.training import Schedule, train_network
 from shapewright.prediction.vgg import VGG19Network, find_weights
@@ -167,3 +168,19 @@ def test_values_of_vectors_and_records_have_heads_as_others_do():
     network = make_network("compact", space, 2, 32)
     assert [head_of(network, name) for name in space.names] == list(network.heads.values())
     assert len(set(network.state_dict())) == len(network.state_dict())
+
+
+def test_an_integer_with_many_values_is_predicted_as_a_number_and_rounded():
+    @sw.procedure
+    def plate(hole: Annotated[int, Range(5, 30)] = 10, feet: Annotated[int, Range(1, 4)] = 2):
+        return box((hole, feet, 40))
+
+    vectors = plate.space.sample(24, seed=1)
+    data = make_dataset(plate.space, vectors, [plate(**vector).normalised() for vector in vectors], THREE_VIEWS[:1], 32)
+    torch.manual_seed(0)
+    network = CompactNetwork(plate.space, 1, 32)
+    answers = network(torch.from_numpy(data.images).float())
+    assert [tuple(answer.shape) for answer in answers] == [(24, 2), (24, 4)]  # a value with its spread; four classes
+    predicted = infer(network, plate.space, data.images).decode()
+    assert {type(values["hole"]) for values in predicted} == {int}
+    assert all(5 <= values["hole"] <= 30 for values in predicted)
