@@ -14,7 +14,8 @@ from typing import TypeAlias
 
 from shapewright.references.archives import is_archive, stem, unpacked
 from shapewright.references.errors import CollectionError, UnreadableError
-from shapewright.references.manifests.rows import Switches, rows_of
+from shapewright.references.manifests.folder_tables import Tables
+from shapewright.references.manifests.rows import Row, Switches, rows_of
 from shapewright.references.orientation import Orientation
 from shapewright.references.other_kinds import refusal
 from shapewright.references.readers.formats import CLOUDS, EXTENSIONS, MESHES
@@ -80,7 +81,8 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None, kee
     Beside meshes pictures are textures and previews, and are left out. A ``.zip`` or ``.tar`` file, packed or not, is
     read as a folder. A pattern is a glob, ``**`` included. A ``.csv`` file is a manifest with a column ``path``,
     relative to the manifest, and if wanted the columns ``name``, ``up``, ``front``, ``object`` and those of
-    ``Switches``; for an empty cell the argument holds. Hidden files are left out. Shapes of a kind that is not read
+    ``Switches``; for an empty cell the argument holds. A ``shapewright.csv`` in a folder, with the same columns, says
+    this of files of that folder, and lists no others. Hidden files are left out. Shapes of a kind that is not read
     have their refusal; other files are left out. A name is the file's stem, or the shape's id in
     ``<id>/models/model_normalized.obj`` (ShapeNet). Where names clash the path takes its place. Raises CollectionError
     where there is nothing to read.
@@ -89,13 +91,15 @@ def find(origins: Sequence[Origin], up: str = "y", front: str | None = None, kee
     if not origins:
         raise CollectionError("the list of references is empty; give it folders, patterns or files")
     sources: list[Source] = []
+    tables = Tables()
     try:
         for path in (Path(origin).expanduser() for origin in origins):
             if path.suffix.lower() == MANIFEST and path.is_file():
                 sources += _in_manifest(path, up, front)
             else:
-                found = _expand(path, default, alone=len(origins) == 1)
-                sources += [replace(source, by_author=by_author) for source in found]
+                for source in _expand(path, default, alone=len(origins) == 1):
+                    row, source = tables.row(source.path), replace(source, by_author=by_author)
+                    sources.append(_told(source, row, up, front) if row else source)
     except OSError as error:
         raise CollectionError(f"cannot look into {error.filename}: {error.strerror}") from error
     masks = masks_of([source.path for source in sources])
@@ -223,17 +227,21 @@ def _in_pattern(pattern: Path, default: Orientation) -> list[Source]:
 def _in_manifest(manifest: Path, up: str, front: str | None) -> list[Source]:
     sources: list[Source] = []
     for row in rows_of(manifest):
-        path, cells = manifest.parent / row.path, row.cells
-        try:
-            orientation = Orientation.of(cells.get("up") or up, cells.get("front") or front)
-        except CollectionError as error:
-            raise CollectionError(f"{path}, as the manifest lists it: {error}") from error
-        said = is_authors(up, front) or bool(cells.get("up") or cells.get("front"))
-        name, shown = cells.get("name") or _stem(path), cells.get("object") or None
-        sources.append(Source(name, path, orientation, by_author=said, object=shown, switches=row.switches))
+        path = manifest.parent / row.path
+        sources.append(_told(Source(_stem(path), path, Orientation()), row, up, front))
     if not sources:
         raise CollectionError(f"{manifest} lists no files; give each a line with its path")
     return sources
+
+
+def _told(source: Source, row: Row, up: str, front: str | None) -> Source:
+    cells, said = row.cells, row.cells.get("up") or row.cells.get("front")
+    try:
+        orientation = Orientation.of(cells.get("up") or up, cells.get("front") or front)
+    except CollectionError as error:
+        raise CollectionError(f"{source.path}, as the manifest lists it: {error}") from error
+    named = replace(source, name=cells.get("name") or source.name, object=cells.get("object") or None)
+    return replace(named, orientation=orientation, by_author=is_authors(up, front) or bool(said), switches=row.switches)
 
 
 def _stem(path: Path) -> str:

@@ -22,6 +22,7 @@ import { Pictures } from "./pictures";
 import { DifferenceLegend, Plane } from "./plane";
 import { colouring, edited, failure, open, original, replica, reset } from "./pair/session";
 import { layout, stage } from "./pair/layout";
+import { ToldOf } from "./told";
 import { Space } from "./space";
 
 export function Inspector({ slug }: { slug: Slug }) {
@@ -80,6 +81,7 @@ export function Inspector({ slug }: { slug: Slug }) {
         <Causes />
         <Judgement />
         <Facts />
+        <ToldOf />
         <Taken />
       </aside>
     </div>

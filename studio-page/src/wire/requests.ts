@@ -16,6 +16,7 @@ import type {
   Replaced,
   Slug,
   Source,
+  TellOrder,
   Written,
 } from "./messages";
 
@@ -61,6 +62,7 @@ export const requests = {
   mesh: async (slug: Slug) =>
     decode(await (await answer(`/api/references/${id(slug)}/shape`)).arrayBuffer()) as MeshMessage,
   drawing: (slug: Slug) => get<DrawingMessage>(`/api/references/${id(slug)}/shape`),
+  tell: (order: TellOrder) => send("PATCH", "/api/references", order),
   source: () => get<Source>("/api/source"),
   saveSource: (text: string, digest: string | null) => send<Written>("PUT", "/api/source", { text, digest }),
   fit: (fresh: boolean) => send("POST", "/api/fit", { fresh }),

@@ -53,6 +53,7 @@ def routes(session: Session) -> list[Route]:
         api("state", lambda _: session.state()),
         api("pictures/{digest}.png", partial(_picture, session)),
         api("references/{slug}", partial(_reference, session)),
+        api("references", partial(_tell, session), "PATCH", requests.TellOrder),
         api("references/{slug}/shape", partial(_shape, session)),
         api("references/{slug}/render", partial(_render, session)),
         api("source", lambda _: _source(project)),
@@ -149,6 +150,12 @@ def _settings(session: Session, request: Request, given: dict[str, Any]) -> Chos
 def _marks(session: Session, request: Request, marks: list[Mark]) -> dict[str, Any]:
     requests.check_known([slug for mark in marks for slug in (mark.a, mark.b)], session.display.board.references)
     session.set_marks(marks)
+    return {}
+
+
+def _tell(session: Session, request: Request, order: requests.TellOrder) -> dict[str, Any]:
+    requests.check_known(order.slugs, session.display.board.references)
+    session.tell(order.slugs, order.told)
     return {}
 
 

@@ -12,6 +12,7 @@ import msgspec
 from shapewright.procedures import source_digest
 from shapewright.runs.folder import read_json, read_record
 from shapewright.studio.jobs.fit_job import PREDICTIONS
+from shapewright.studio.project.telling import told
 from shapewright.studio.project.workspace import Missing
 from shapewright.studio.session.history import source_of
 from shapewright.studio.session.job_list import Refused
@@ -41,6 +42,7 @@ def reference(session: Session, slug: Slug, about: About | None) -> Reference:
         triangles=about.triangles if about else None,
         notes=about.notes if about else [],
         units=about.units if about else None,
+        told=told(session.display.listed.sources[slug]),
         colour=state.colour(session.display.board.standard),
         **{key: _known(predicted.get(key), names) for key in ("predicted", "spread", "likelihood")},
         explanation=explanation(session)["references"].get(slug) if session.explained else None,

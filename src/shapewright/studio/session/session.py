@@ -19,6 +19,7 @@ from shapewright.studio.bench import messages
 from shapewright.studio.bench.client import BenchError
 from shapewright.studio.project.authored import Authored
 from shapewright.studio.project.preferences import Preferences
+from shapewright.studio.project.telling import tell
 from shapewright.studio.project.watch import watch
 from shapewright.studio.project.workspace import Project, ProjectError
 from shapewright.studio.session.bench_link import BenchLink
@@ -31,8 +32,10 @@ from shapewright.studio.session.problem_list import ProblemList
 from shapewright.studio.session.standard import CUTS, Standard
 from shapewright.studio.wire import changes
 from shapewright.studio.wire.collection import Procedure
+from shapewright.studio.wire.detail import Told
 from shapewright.studio.wire.judgement import Learned, Mark, Marking
 from shapewright.studio.wire.problems import Problem
+from shapewright.studio.wire.values import Slug
 from shapewright.studio.wire.work import Job, Run
 
 _PATIENCE = 2.0
@@ -179,6 +182,11 @@ class Session:
         self.pages.publish(changes.MarksChanged(marking=self.marking()))
         if said != self._learned():
             self._follow_marks()
+
+    def tell(self, slugs: list[Slug], told: Told) -> None:
+        """What the author says of references; all slugs are known. They stand so at once. Raises ProjectError."""
+        tell(self.project, [self.display.listed.sources[slug] for slug in slugs], told)
+        self.references_changed()
 
     async def fit(self, fresh: bool = False) -> None:
         """Start a fit; one that runs is ended first. Raises Refused."""

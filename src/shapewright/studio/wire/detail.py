@@ -6,14 +6,16 @@ dictionaries: fields that are not named here stay.
 
 from __future__ import annotations
 
-from typing import Any, Literal, NotRequired, TypedDict
+from typing import Annotated, Any, Literal, NotRequired, TypeAlias, TypedDict
 
-from msgspec import Struct
+from msgspec import Meta, Struct
 
 from shapewright.studio.wire.collection import Stage
 from shapewright.studio.wire.judgement import Judged, Measures, Piece, Pose
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Address, Slug, Values, Vector
+
+Axis: TypeAlias = Annotated[Literal["x", "-x", "y", "-y", "z", "-z"], Meta(title="Axis")]
 
 
 class Units(Struct, frozen=True, kw_only=True):
@@ -31,6 +33,13 @@ class About(Struct, frozen=True, kw_only=True):
     triangles: int | None  # null of a drawing
     notes: list[str]
     units: Units
+
+
+class Told(Struct, frozen=True, kw_only=True):
+    """What the author says of one file alone; null: what holds for all."""
+
+    up: Axis | None = None  # that points up in it
+    split: Literal["off", "apart", "names"] | None = None  # which objects in it the next fit takes as references
 
 
 class Placement(TypedDict):
@@ -141,6 +150,7 @@ class Reference(Judged, frozen=True, kw_only=True):
     missing: list[Piece]  # of the reference; the largest first
     surplus: list[Piece]  # of the replica; the largest first
     pose: Pose | None  # as in Tile
+    told: Told
     group: int | None
     stage: Stage
     problem: Problem | None

@@ -9,6 +9,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from shapewright.shapes.files import Format
+from shapewright.studio.wire.detail import Told
 from shapewright.studio.wire.judgement import Mark
 from shapewright.studio.wire.values import Slug, Values
 from shapewright.studio.wire.work import JobKind
@@ -69,6 +70,13 @@ class ExportOrder(Order, frozen=True):
     seed: Annotated[int, Meta(ge=0)] = 0  # of random samples
 
 
+class TellOrder(Order, frozen=True):
+    """Say something of references, in place of what was told of them before."""
+
+    slugs: Annotated[list[Slug], Meta(min_length=1)]
+    told: Told
+
+
 class CancelOrder(Order, frozen=True):
     """End a job."""
 
@@ -127,6 +135,8 @@ _SHOULD: Mapping[Any, str] = {
     FitOrder: "fresh is true or false",
     ExportOrder: f"what is a list of {_words(Part)}; format is one of {_words(ExportFormat)}; "
     f"count lies between 1 and {MOST_SAMPLES}; seed is a whole number",
+    TellOrder: "slugs is a list of references; told has up (x, -x, y, -y, z, -z or null) and split (off, apart, names "
+    "or null)",
     CancelOrder: f"kind is one of {_words(JobKind)}",
     RestoreOrder: "digest is a string or null",
     ApplyOrder: "to is copy or procedure, digest is a string or null",

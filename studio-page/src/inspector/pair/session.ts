@@ -63,6 +63,7 @@ function watch(next: Slug): () => void {
     const tile = tileOf(next);
     const { digest, state } = procedure.value;
     return [
+      tile?.reference,
       tile?.replica,
       tile?.fidelity,
       tile?.distance,

@@ -5,6 +5,8 @@ import type { Grade, Measures, Piece, Pose } from "./judgement";
 import type { Problem } from "./problems";
 import type { Stage } from "./collection";
 
+export type Axis = "x" | "-x" | "y" | "-y" | "z" | "-z";
+
 /** The way back from the normalised frame: own = axes^T @ (normalised / scale + centre). In 2D, vectors of two. */
 export interface Units {
   centre: number[];
@@ -21,6 +23,14 @@ export interface About {
   triangles: number | null;
   notes: string[];
   units: Units;
+}
+
+/** What the author says of one file alone; null: what holds for all. */
+export interface Told {
+  /** that points up in it. */
+  up: Axis | null;
+  /** which objects in it the next fit takes as references. */
+  split: "off" | "apart" | "names" | null;
 }
 
 /** Where the replica stood when the two were compared: (normalised - centre) * scale. */
@@ -152,6 +162,7 @@ export interface Reference {
   surplus: Piece[];
   /** as in Tile. */
   pose: Pose | null;
+  told: Told;
   group: number | null;
   stage: Stage;
   problem: Problem | null;

@@ -2,6 +2,7 @@
 
 import type { JobKind } from "./work";
 import type { Slug, Values } from "./values";
+import type { Told } from "./detail";
 
 export type Part = "replicas" | "samples" | "report" | "parameters";
 
@@ -49,6 +50,12 @@ export interface ExportOrder {
   count?: number;
   /** of random samples. */
   seed?: number;
+}
+
+/** Say something of references, in place of what was told of them before. */
+export interface TellOrder {
+  slugs: Slug[];
+  told: Told;
 }
 
 /** End a job. */

@@ -1,0 +1,65 @@
+/** What the author says of a file alone: which of its axes points up, and whether it holds several objects. */
+
+import { leafed } from "../collection/order";
+import { complain } from "../state/notices";
+import { dimension } from "../state/studio";
+import { Button, Select } from "../ui/controls";
+import { requests } from "../wire/requests";
+import type { Slug, Told } from "../wire/messages";
+import { reference } from "./pair/session";
+
+const AXES = ["x", "-x", "y", "-y", "z", "-z"] as const;
+const AS_ALL = "as all";
+const UP = [{ value: AS_ALL, label: "as the others" }, ...AXES.map((axis) => ({ value: axis, label: axis }))];
+const SPLIT = [
+  { value: AS_ALL, label: "as the others" },
+  { value: "off", label: "one shape" },
+  { value: "apart", label: "several, far apart" },
+  { value: "names", label: "one for each name" },
+];
+
+export function ToldOf() {
+  const open = reference.value;
+  if (!open || dimension.value === 2) return null;
+  const others = leafed.value.filter((slug) => slug !== open.slug).length;
+  // Shown at once: whoever changes both in a moment is to lose neither.
+  const show = (told: Told) => {
+    if (reference.value?.slug === open.slug) reference.value = { ...reference.value, told };
+  };
+  const say = (slugs: Slug[], told: Told) => {
+    show(told);
+    requests.tell({ slugs, told }).catch((error: unknown) => {
+      complain(error);
+      show(open.told);
+    });
+  };
+  return (
+    <section class="told" data-told>
+      <h3>Its file</h3>
+      <Select
+        label="Up"
+        title="The axis of the file that points up"
+        options={UP}
+        value={open.told.up ?? AS_ALL}
+        onChange={(up) => say([open.slug], { ...open.told, up: up === AS_ALL ? null : (up as Told["up"]) })}
+      />
+      <Select
+        label="Objects"
+        title="Which objects in the file the next fit takes as references of their own"
+        options={SPLIT}
+        value={open.told.split ?? AS_ALL}
+        onChange={(split) =>
+          say([open.slug], { ...open.told, split: split === AS_ALL ? null : (split as Told["split"]) })
+        }
+      />
+      {others > 0 && (
+        <Button
+          title="Say the same of all references that the collection shows now"
+          onClick={() => say(leafed.value, open.told)}
+        >
+          Say so of all {leafed.value.length} shown
+        </Button>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,57 @@
+from dataclasses import replace
+
+import pytest
+import trimesh
+
+from shapewright.references import Collection
+from shapewright.references.manifests.folder_tables import TABLE
+from shapewright.studio.project.listing import listing
+from shapewright.studio.project.telling import tell, told
+from shapewright.studio.project.workspace import Project, ProjectError
+from shapewright.studio.wire.detail import Told
+
+NOTHING = Told()
+
+
+@pytest.fixture
+def project(tmp_path):
+    home = tmp_path / "chairs"
+    (home / "references").mkdir(parents=True)
+    (home / "procedure.py").write_text("")
+    for name in ("a", "b"):
+        trimesh.creation.box((1, 2, 3)).export(home / "references" / f"{name}.stl")
+    return Project.of(home)
+
+
+def sources(project):
+    return listing(project.origin).sources
+
+
+def test_what_is_told_is_in_the_table_that_every_command_reads_and_is_taken_back(project):
+    says = Told(up="z", split="apart")
+    tell(project, sources(project).values(), says)
+    table = project.folder / "references" / TABLE
+    assert table.read_text() == "path,up,split\na.stl,z,apart\nb.stl,z,apart\n"
+    assert [told(source) for source in sources(project).values()] == [says, says]
+    assert [each.orientation.up for each in Collection.load(project.origin.source)] == ["z", "z"]
+    tell(project, [sources(project)["a"]], NOTHING)
+    assert told(sources(project)["a"]) == NOTHING and told(sources(project)["b"]) == says
+    tell(project, [sources(project)["b"]], NOTHING)
+    assert not table.exists()
+
+
+def test_nothing_is_written_where_another_place_says_it_or_outside_the_project(project, tmp_path):
+    trimesh.creation.box((1, 2, 3)).export(tmp_path / "far.stl")
+    (project.folder / "list.csv").write_text("path\nreferences/a.stl\n")
+    for source, why in ((tmp_path, "outside the project"), (project.folder / "list.csv", "list.csv lists")):
+        other = replace(project, origin=replace(project.origin, source=str(source), confine=None))
+        with pytest.raises(ProjectError, match=why):
+            tell(other, sources(other).values(), Told(up="z"))
+    assert not list(tmp_path.rglob(TABLE))
+
+
+def test_an_up_on_the_axis_of_the_front_is_refused_before_anything_is_written(project):
+    facing = replace(project, origin=replace(project.origin, front="z"))
+    with pytest.raises(ProjectError, match="up -z"):
+        tell(facing, sources(facing).values(), Told(up="-z"))
+    assert not list(project.folder.rglob(TABLE))
