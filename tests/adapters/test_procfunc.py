@@ -108,3 +108,121 @@ def test_a_function_that_is_not_there_is_told_with_its_line(tmp_path):
     )
     with pytest.raises(ProcedureError, match=r"vase.toml:2: .*no attribute 'vaze'"):
         sw.load_procedure(spec)(x=True)
+
+
+SEATS = """\
+import bpy
+import procfunc as pf
+
+def _cube(size):
+    bpy.ops.mesh.primitive_cube_add(size=1.0)
+    bpy.context.object.scale = size
+    return pf.MeshObject(bpy.context.object)
+
+def gloss_material_rand(rng):
+    return pf.random.uniform(rng, 0.0, 1.0)
+
+def _block_rand(rng):
+    return pf.random.uniform(rng, 0.1, 0.2)
+
+def _rods_rand(rng):
+    return sum(pf.random.log_uniform(rng, 0.1, 0.2) for _ in range(pf.random.randint(rng, 1, 3)))
+
+def seat_rand(rng, lift=0.0):
+    width = pf.random.uniform(rng, 1.0, 2.0)
+    depth = width * pf.random.uniform(rng, 0.5 * width, width)
+    gloss_material_rand(rng)
+    legs = pf.control.choice(rng, [(_block_rand, 2.0), (_rods_rand, 1.0)])
+    height = pf.random.clip_gaussian(rng, mean=1.0, std=0.1)
+    if width > 1.9:
+        height += pf.random.uniform(rng, 2.0, 3.0)
+    return _cube((width, depth, height + legs(rng) + lift))
+
+def plain(width):
+    return _cube((width, 1.0, 1.0))
+"""
+
+
+@pytest.fixture(scope="module")
+def seat(tmp_path_factory):
+    """A spec of a function of SEATS. Returns what loads it, with these lines after the first ones."""
+    folder = tmp_path_factory.mktemp("seats")
+    (folder / "seats.py").write_text(SEATS)
+
+    def load(lines="", name="seat_rand"):
+        (folder / "seat.toml").write_text(f'call = "seats:{name}"\npython = "{PYTHON}"\n{lines}')
+        return sw.load_procedure(folder / "seat.toml")
+
+    return load
+
+
+def test_what_a_function_draws_is_its_space(seat):
+    properties = seat().space.to_schema()["properties"]
+    assert list(properties) == ["width", "depth", "legs", "height", "block", "rods", "rods_2", "rods_3"]
+    assert properties["height"]["minimum"] == pytest.approx(0.7)
+    assert (properties["depth"]["minimum"], properties["depth"]["maximum"]) == (0.0, 1.0)
+    assert properties["legs"]["enum"] == ["block", "rods"] and properties["rods"]["type"] == "integer"
+    assert {name: table.get("x-when") for name, table in properties.items() if "x-when" in table} == {
+        "block": "legs == 'block'",
+        "rods": "legs == 'rods'",
+        "rods_2": "legs == 'rods'",
+        "rods_3": "legs == 'rods' and rods >= 2",
+    }
+
+
+def test_draws_have_the_values_of_the_parameters(seat):
+    made = seat()
+    shape = made(width=1.5, depth=0.5, height=0.9, legs="block", block=0.15)
+    np.testing.assert_allclose(shape.extent, [1.5, 1.05, 1.5 * 1.125], rtol=1e-5)
+    rods = made(width=1.5, depth=0.5, height=0.9, legs="rods", rods=2, rods_2=0.1, rods_3=0.2)
+    assert rods.extent[1] == pytest.approx(1.2)
+
+
+def test_what_is_held_depends_on_the_seed_alone(seat):
+    heights = [seat(f"[parameters]\nrng = {seed}\n")(width=1.95, height=0.9, block=0.1).extent[1] for seed in (0, 1, 0)]
+    assert heights[0] == heights[2] != heights[1] and 3.0 < heights[0] < 4.0
+
+
+def test_what_a_spec_says_of_a_draw_or_of_an_argument_goes_before(seat):
+    made = seat('[parameters]\nlegs = "block"\nlift = 5.0\nwidth = { range = [1.2, 1.4] }\n')
+    assert set(made.space.names) == {"width", "depth", "height", "block"}
+    assert made.space.to_schema()["properties"]["width"]["maximum"] == 1.4
+    assert made(height=0.9, block=0.1).extent[1] == pytest.approx(6.0)
+
+
+@pytest.mark.parametrize(
+    ("lines", "name", "says"),
+    [
+        (
+            "[parameters]\nlength = 2.0\n",
+            "seat_rand",
+            r"seat.toml:4: parameters.length: .* it draws width, depth, legs",
+        ),
+        ('[parameters]\nlegs = "rod"\n', "seat_rand", r"seat.toml:4: parameters.legs: .* there are 'block', 'rods'"),
+        ("", "plain", r"seat.toml:1: .*it takes no rng, and draws nothing; say the ranges"),
+        ("", "nothing_rand", r"seat.toml:1: .*no attribute 'nothing_rand'"),
+    ],
+)
+def test_what_is_wrong_with_draws_is_told(seat, lines, name, says):
+    with pytest.raises(ProcedureError, match=says):
+        seat(lines, name)
+
+
+@pytest.mark.parametrize(
+    ("target", "known"),
+    [
+        ("vase:vase_rand", {"neck_scale", "profile_star_points", "foot_height"}),
+        ("vase:cup_rand", {"diameter", "twist"}),
+        ("bowl:bowl_rand", {"rib_count", "broad_lobes"}),
+        ("table:table_dining_rand", {"base_fn", "leg_inset"}),
+        ("chair:chair_dining_rand", {"back_fn", "slat_width"}),
+    ],
+)
+def test_functions_of_infinigen_are_procedures_as_they_are(tmp_path, target, known):
+    spec = tmp_path / "spec.toml"
+    spec.write_text(f'call = "infinigen2.objects.{target}"\npython = "{PYTHON}"\nunit = "m"\n')
+    made = sw.load_procedure(spec)
+    assert known < set(made.space.names)
+    assert not [name for name in made.space.names if "material" in name or "color" in name]
+    one, other = (made(**values) for values in made.space.sample(2, seed=1))
+    assert len(one.faces) > 100 and not np.allclose(one.extent, other.extent)

@@ -89,8 +89,10 @@ def test_what_is_wrong_is_told_with_its_key_and_line(tmp_path, text, line, says)
 def test_the_specs_of_the_page_are_specs(tmp_path):
     page = (Path(__file__).resolve().parents[2] / "docs" / "generators.md").read_text(encoding="utf-8")
     (tmp_path / "cabinet.sh").write_text("")
-    command, call = (spec(tmp_path, block) for block in re.findall(r"```toml\n(.*?)```", page, re.DOTALL))
+    command, call, vase, chair = (spec(tmp_path, block) for block in re.findall(r"```toml\n(.*?)```", page, re.DOTALL))
     assert command.words[1] == str(tmp_path / "cabinet.sh") and command.entries.fixed == {"finish": "matt"}
     assert call.target == "scene_synthesizer.procedural_assets:TableAsset" and len(call.entries.parameters) == 4
+    assert len(vase.entries.parameters) == 4 and not vase.drawn
+    assert chair.drawn and chair.entries.fixed == {"base_fn": "chair_straight_base"}
     for key in (*KEYS, *SPEC_KEYS):
         assert re.search(rf"`\[?{key}\b", page), key

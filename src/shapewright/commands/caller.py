@@ -2,7 +2,8 @@
 
 It uses what Python 3.8 has, and nothing else. The first request says what is called; a further one has ``arguments``,
 and ``out``, an OBJ file to write. An answer has ``file``, the file that holds the shape, and ``up``, the axis that
-points up in it where the library has one; or ``error``, and ``missing``, the package that is not there.
+points up in it where the library has one; or ``error``, and ``missing``, the package that is not there. With
+``draws``, random draws of procfunc have values; without ``out``, an answer has ``draws``, what was drawn.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import contextlib
 import functools
 import importlib
 import importlib.util
+import inspect
 import json
 import os
 import re
@@ -37,7 +39,7 @@ def main() -> None:
             if function is None:
                 function = found(**request)
             else:
-                answer.update(built(function, request["arguments"], request["out"]))
+                answer.update(built(function, **request))
         except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever it raises is an answer
             place = traceback.extract_tb(error.__traceback__)[-1]
             if isinstance(error, ImportError):
@@ -56,10 +58,15 @@ def found(target: str, home: str, environment: dict[str, str]) -> Any:
     return functools.reduce(getattr, name.split("."), importlib.import_module(module))
 
 
-def built(function: Any, arguments: dict[str, Any], out: str) -> dict[str, Any]:
+def built(function: Any, arguments: dict[str, Any], out: str, draws: Any = None) -> dict[str, Any]:
     """The answer to a request. What Blender holds of it is removed."""
     with beside("meshes").removed_afterwards() if "bpy" in sys.modules else contextlib.nullcontext():
-        result = function(**arguments)
+        if draws is not None:
+            result, records = beside("draws").called(function, arguments, **draws)
+            if not out:
+                return {"draws": records, "takes": list(inspect.signature(function).parameters)}
+        else:
+            result = function(**arguments)
         objects = beside("meshes").objects_of(result) if "bpy" in sys.modules else []
         if objects:
             return {"file": beside("meshes").written(objects, out), "up": "z"}

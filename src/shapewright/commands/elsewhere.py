@@ -26,17 +26,27 @@ _kept: dict[tuple[str | None, str], Resident] = {}
 def call_elsewhere(spec: Spec, values: dict[str, Any]) -> Shape:
     """The shape. Raises Infeasible where a constraint does not hold, ProcedureError with what went wrong there."""
     given = arguments(spec, values)
+    request: dict[str, Any] = {"arguments": {name: value for name, value in given.items() if name not in spec.draws}}
+    if spec.draws:
+        drawn = {draw.key: draw.given(given[name]) for name, draw in spec.draws.items()}
+        request["draws"] = {"values": drawn, "seed": request["arguments"].pop("rng", 0)}
     with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
         started, out = time.time(), Path(folder) / "out.obj"
-        try:
-            answer = _resident(spec).ask({"arguments": given, "out": str(out)}).header
-        except Gone as gone:
-            status, said = gone.ended.status, gone.ended.last_words
-            how = f"its Python ended while it built ({words_of(status)})" if status is not None else "its Python ended"
-            raise ProcedureError(f"{said}; {how}" if said else how, spec.place, "crash") from gone
-        if "error" in answer:
-            raise _error(answer, spec)
+        answer = ask(spec, {**request, "out": str(out)})
         return shape_of(Path(answer["file"]), spec.facts, started, spec.place, answer.get("up"))
+
+
+def ask(spec: Spec, request: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The answer of its Python. Raises ProcedureError with what went wrong there."""
+    try:
+        answer = _resident(spec).ask(request).header
+    except Gone as gone:
+        status, said = gone.ended.status, gone.ended.last_words
+        how = f"its Python ended while it built ({words_of(status)})" if status is not None else "its Python ended"
+        raise ProcedureError(f"{said}; {how}" if said else how, spec.place, "crash") from gone
+    if "error" in answer:
+        raise _error(answer, spec)
+    return answer
 
 
 def _resident(spec: Spec) -> Resident:

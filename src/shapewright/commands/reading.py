@@ -7,6 +7,7 @@ from pathlib import Path
 
 from shapewright.commands.call import call, called
 from shapewright.commands.command import run
+from shapewright.commands.drawn import with_draws
 from shapewright.commands.elsewhere import call_elsewhere
 from shapewright.commands.function import Function
 from shapewright.commands.spec import read_spec
@@ -16,6 +17,8 @@ from shapewright.procedures import Procedure
 def read(path: Path, name: str | None) -> Procedure:
     """The procedure of a TOML file. name: it gets, if any. Raises ProcedureError with the line where it is wrong."""
     spec = read_spec(path)
+    if spec.drawn:
+        spec = with_draws(spec)
     if name is not None:
         spec = replace(spec, name=name)
     if spec.target and not spec.python:

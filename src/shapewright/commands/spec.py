@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.commands.entries import Entries, EntryError, entries_of
+from shapewright.commands.procfunc.drawn_space import Draw
 from shapewright.commands.recipes import Recipe, read_recipe
 from shapewright.commands.toml_files import TomlFile, read_toml
 from shapewright.parameters.expressions import Expression
@@ -63,6 +64,8 @@ class Spec:
         constraints: conditions without which parameters have no shape.
         place: the line that says what is run.
         helpers: the files that it names.
+        drawn: whether its parameters are what the function draws at random.
+        draws: these, by the names of the parameters, where they are known.
     """
 
     file: TomlFile
@@ -81,16 +84,21 @@ class Spec:
     constraints: tuple[Expression, ...] = ()
     place: Place | None = None
     helpers: tuple[Path, ...] = ()
+    drawn: bool = False
+    draws: Mapping[str, Draw] = field(default_factory=dict)
 
 
-def read_spec(path: Path) -> Spec:
-    """Read a spec. Raises ProcedureError with the line where it is wrong."""
+def read_spec(path: Path, draws: Mapping[str, Draw] | None = None) -> Spec:
+    """Read a spec. draws: what its function draws, where it is known. Raises ProcedureError with the line in error."""
     file = read_toml(path)
     said = file.values
     _check_keys(file)
     key = "run" if "run" in said else "call"
     recipe, recipe_files = _recipe(file)
-    entries = _entries(file, recipe)
+    drawn = _is_drawn(said)
+    if draws:
+        recipe = Recipe({name: draw.table for name, draw in draws.items()})
+    entries = _entries(file, recipe, drawn and not draws)
     words = _words(file) if key == "run" else ()
     spec = Spec(
         file=file,
@@ -106,9 +114,14 @@ def read_spec(path: Path) -> Spec:
         seconds=said.get("seconds"),
         memory_mb=said.get("memory"),
         environment={name: str(value) for name, value in said.get("environment", {}).items()},
-        constraints=(*(recipe.constraints if recipe else ()), *_constraints(file, entries)),
+        constraints=(
+            *(recipe.constraints if recipe else ()),
+            *(() if drawn and not draws else _constraints(file, entries)),
+        ),
         place=file.place((key,)),
         helpers=tuple(dict.fromkeys([*_named(path.parent, words, said.get("call", "")), *recipe_files])),
+        drawn=drawn,
+        draws=draws or {},
     )
     if key == "run":
         _check_placeholders(spec)
@@ -151,7 +164,16 @@ def _recipe(file: TomlFile) -> tuple[Recipe | None, list[Path]]:
     return read_recipe(path), [path]
 
 
-def _entries(file: TomlFile, recipe: Recipe | None) -> Entries:
+def _is_drawn(said: Mapping[str, Any]) -> bool:
+    """Whether a function has no ranges beside it, or the name by which procfunc's functions say that they draw."""
+    beside = said.get("parameters", {})
+    ranges = isinstance(beside, str) or any(
+        isinstance(table, dict) and "fixed" not in table for table in beside.values()
+    )
+    return "python" in said and (said.get("call", "").endswith("_rand") or not (ranges or "ranges" in said))
+
+
+def _entries(file: TomlFile, recipe: Recipe | None, may_be_empty: bool = False) -> Entries:
     said = file.values.get("parameters", {})
     tables = {**(recipe.tables if recipe else {}), **(said if isinstance(said, dict) else {})}
     try:
@@ -159,7 +181,7 @@ def _entries(file: TomlFile, recipe: Recipe | None) -> Entries:
     except EntryError as error:
         where = ("parameters", error.name, *([error.key] if error.key else []))
         raise file.error(where, str(error)) from error
-    if not entries.parameters:
+    if not entries.parameters and not may_be_empty:
         raise file.error(
             ("parameters",), "no parameter has a range; write [parameters] and: width = { range = [1, 2] }"
         )
