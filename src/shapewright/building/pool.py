@@ -40,6 +40,7 @@ class Workers:
     shown: what the author's code prints goes to standard error; by default its last lines are kept for failures.
 
     Attributes:
+        home: the folder of the first procedure's file, None where it has none: what it reads lies there.
         costs: seconds of every shape that was built so far, also while others are.
         opened: files of the author's that were read meanwhile.
     """
@@ -48,6 +49,7 @@ class Workers:
         self, procedure: Procedure, count: int | None = None, limits: Limits | None = None, shown: bool = False
     ) -> None:
         self.procedure = procedure
+        self.home = procedure.path.parent if procedure.path else None
         self.count = count or cores()
         limits = limits or Limits()
         self.limits = replace(limits, seconds=procedure.seconds) if procedure.seconds else limits

@@ -45,14 +45,14 @@ _SAME = 1e-6  # relative difference of bounds and areas up to which two shapes a
 def turned_to(source: str, crew: Workers) -> Iterator[Workers]:
     """Workers that turn to the procedure of the same name in a changed source.
 
-    It is loaded from a folder that is removed at the end; what lies beside the procedure is linked there. Raises
+    It is loaded from a folder that is removed at the end; what lies beside the author's file is linked there. Raises
     ProcedureError when the source does not load.
     """
     before = crew.procedure
     with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
         path = Path(folder) / (before.path.name if before.path else f"{before.name}.py")
         path.write_text(source, encoding="utf-8")
-        for file in before.path.parent.iterdir() if before.path else ():
+        for file in crew.home.iterdir() if crew.home else ():
             with suppress(OSError):  # its own name is taken; Windows may forbid links
                 (path.parent / file.name).symlink_to(file)
         crew.turn_to(load_procedure(f"{path}:{before.name}", before.working))
