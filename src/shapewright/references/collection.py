@@ -83,8 +83,8 @@ class Collection:
     ) -> Collection:
         """Read a collection from a folder, an archive, a glob pattern, a CSV manifest, a file, or a list of these.
 
-        It reads meshes in OBJ, PLY, STL, OFF, GLB, glTF, 3MF, DAE, FBX, USD, STEP and IGES, and drawings in SVG and
-        pictures.
+        It reads meshes in OBJ, PLY, STL, OFF, GLB, glTF, 3MF, DAE, FBX, USD, STEP and IGES, and drawings in SVG, DXF
+        and pictures.
         ``sources.find`` says which files a source stands for and how they are named. A file that cannot be read is
         listed in ``skipped`` with its reason. Raises CollectionError, which says what to do, where nothing can be read.
 

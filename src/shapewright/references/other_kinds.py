@@ -48,7 +48,7 @@ _KINDS = {
     ("a point cloud", _POINTS): "ptx pwn fls fws zfs rcp rcs pod",
     ("packed Gaussian splats", _SPLATS): "spz ksplat sog",
     ("HEIC", "save it as JPEG or PNG"): "heic heif",
-    ("a drawing", _DRAWN): "dxf dwg eps ai pdf cdr psd xcf kra drawio vsdx emf wmf",
+    ("a drawing", _DRAWN): "dwg eps ai pdf cdr psd xcf kra drawio vsdx emf wmf",
     ("an archive", _UNPACK): "rar 7z gz bz2 xz zst z lz4 zip tar tgz tbz2 txz cab iso",
     ("a pointer of DVC", "fetch the file with `dvc pull`"): "dvc",
 }

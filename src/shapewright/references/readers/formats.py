@@ -10,6 +10,7 @@ import numpy as np
 from shapewright.references.errors import UnreadableError
 from shapewright.references.other_kinds import refusal
 from shapewright.references.parts import Parts
+from shapewright.references.readers.cad.dxf import read_dxf
 from shapewright.references.readers.cad.step import read_iges, read_step
 from shapewright.references.readers.clouds.cloud import Cloud, usable
 from shapewright.references.readers.clouds.columns import read_pts, read_xyz
@@ -60,7 +61,10 @@ _CLOUDS: dict[str, Callable[[bytes], Cloud]] = {
     ".splat": read_splat,
 }
 _CLOUD_FILES: dict[str, Callable[[Path, bytes], Cloud]] = {".las": read_las, ".laz": read_las, ".e57": read_e57}
-_DRAWINGS: dict[str, Callable[[bytes], tuple[Drawing, tuple[str, ...]]]] = {
+_Drawn = tuple[Drawing, tuple[str, ...]] | tuple[Drawing, tuple[str, ...], float | None]
+"""A drawing, notes, and a unit in metres where the format has one."""
+_DRAWINGS: dict[str, Callable[[bytes], _Drawn]] = {
+    ".dxf": read_dxf,
     ".svg": read_svg,
     ".svgz": read_svg,
     **dict.fromkeys(PICTURES, read_picture),
@@ -144,7 +148,7 @@ def _view(kind: str, data: bytes, mask: Path | None) -> Contents:
     if kind in PICTURES:
         seen, notes = read_view(data, mask.read_bytes() if mask else None)
     else:
-        drawing, notes = _DRAWINGS[kind](data)
+        drawing, notes = _DRAWINGS[kind](data)[:2]
         seen = view_of(drawing)
     return Contents(Views((seen,)), notes)
 

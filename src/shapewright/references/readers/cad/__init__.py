@@ -1,1 +1,1 @@
-"""Exact solids of CAD programs, through cascadio (extra ``cad``), as triangles."""
+"""Exact solids of CAD programs as triangles and their drawings as areas, through cascadio and ezdxf (extra ``cad``)."""
