@@ -91,7 +91,7 @@ def test_parameter_space_is_described(running: Studio) -> None:
     by_name = {p["name"]: p for p in running.get("/api/state")["procedure"]["parameters"]}
     assert by_name["height"] == {
         "name": "height", "kind": "scalar", "low": 0.3, "high": 1.2, "steps": None, "options": None, "default": 0.6,
-        "conditional": False,
+        "meaning": "", "conditional": False,
     }  # fmt: skip
     assert by_name["leg"]["steps"] == 4 and by_name["shelf_height"]["conditional"]
 

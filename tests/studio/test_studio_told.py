@@ -1,4 +1,4 @@
-"""What the author tells of single references in the page, and what follows from it."""
+"""What the author tells: of single references in the page, and of parameters in the procedure."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from shapewright.references import Collection
 from studio_browser import Visit, chromium, missing
 from studio_client import PROCEDURE, Studio, ready, studio
 
+MEANING = "How high the top lies."
 FIELD = ".told select[aria-label='{}']"
 
 
@@ -19,7 +20,7 @@ FIELD = ".told select[aria-label='{}']"
 def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
     folder = tmp_path_factory.mktemp("boxes")
     (folder / "references").mkdir()
-    (folder / "procedure.py").write_text(PROCEDURE)
+    (folder / "procedure.py").write_text(PROCEDURE.replace("1.2)]", f'1.2), "{MEANING}"]'))
     for number in (1, 2, 3):
         box = trimesh.creation.box((1, 0.2 * number, 2))
         box.export(folder / "references" / f"box {number}.stl")
@@ -86,4 +87,21 @@ def test_an_author_says_which_axis_points_up_of_one_and_of_all_that_are_shown(ru
             page.select_option(FIELD.format(field), "as all")
         running.wait_for(lambda s: running.get("/api/references/box-1")["told"] == {"up": None, "split": None})
         assert ups(running) == ["y", "z", "z"]
+        visit.end()
+
+
+@pytest.mark.skipif(missing() is not None, reason=str(missing()))
+def test_a_parameter_is_shown_with_what_the_author_says_of_it(running: Studio) -> None:
+    with chromium() as browser:
+        visit = Visit.of(running, browser)
+        visit.page.evaluate("location.hash = 'inspect/box-2'")
+        row = visit.page.locator("[data-parameter=height]")
+        assert row.locator(".label").get_attribute("title") == f"height: {MEANING}"
+        read = visit.page.context.new_cdp_session(visit.page).send("Accessibility.getFullAXTree")["nodes"]
+        heard = {
+            (node["role"]["value"], node["name"]["value"]): node.get("description") for node in read if "name" in node
+        }
+        for control in (("group", "height"), ("slider", "height"), ("spinbutton", "height, typed")):
+            assert heard[control]["value"] == MEANING
+        assert visit.page.locator("[data-parameter=leg]").get_attribute("title") is None
         visit.end()

@@ -54,6 +54,7 @@ function Slider({ parameter, value, found, predicted, spread, disabled, onChange
         <input
           type="range"
           aria-label={parameter.name}
+          title={parameter.meaning || undefined}
           min={low}
           max={high}
           step={(high - low) / 400}

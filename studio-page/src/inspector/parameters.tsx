@@ -49,7 +49,7 @@ const differs = (name: string): boolean => {
 };
 
 function Row({ parameter }: { parameter: Parameter }) {
-  const { name, kind } = parameter;
+  const { name, kind, meaning } = parameter;
   const found = reference.value;
   const value = values.value[name] ?? parameter.default;
   const used = active.value.size === 0 || active.value.has(name);
@@ -67,9 +67,15 @@ function Row({ parameter }: { parameter: Parameter }) {
   );
   const short = kind === "binary" || kind === "integer";
   return (
-    <div class={`parameter ${used ? "" : "unused"}`} data-parameter={name}>
+    <div
+      class={`parameter ${used ? "" : "unused"}`}
+      data-parameter={name}
+      role="group"
+      aria-label={name}
+      title={meaning || undefined}
+    >
       <div class="head">
-        <span class="label" title={name}>
+        <span class="label" title={meaning ? `${name}: ${meaning}` : name}>
           {words(name)}
         </span>
         {used ? <Predicted parameter={parameter} value={found?.predicted?.[name] ?? null} /> : <NoEffect />}
@@ -91,6 +97,7 @@ function Row({ parameter }: { parameter: Parameter }) {
             class="number"
             type="number"
             aria-label={`${name}, typed`}
+            title={meaning || undefined}
             step="any"
             disabled={!used}
             value={significant(Number(value))}

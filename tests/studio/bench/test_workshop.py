@@ -15,7 +15,7 @@ SPEC = """\
 run = "sh tool.sh {out.obj} {width} {here}"
 seconds = 60
 [parameters]
-width = { range = [1, 4], default = 2 }
+width = { range = [1, 4], default = 2, description = "how wide it is" }
 """
 SCRIPT = """\
 case $2 in 4*) echo $$ > $3/busy; sleep 60 & wait;; esac
@@ -36,6 +36,7 @@ def workshop(tmp_path):
 def test_a_program_has_the_time_that_its_spec_says(workshop, tmp_path):
     version = workshop.load(tmp_path / "spec.toml", Limits(seconds=0.2))
     assert (version.name, version.seconds) == ("spec", 60)
+    assert [parameter.meaning for parameter in version.parameters] == ["how wide it is"]
     built = workshop.build({"width": 3.0})
     assert built.build.failure is None and built.build.shape.extent[0] == 3.0
 

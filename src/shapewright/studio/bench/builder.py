@@ -91,7 +91,10 @@ def _received(requests: BinaryIO) -> Any:
 
 
 def _version(procedure: Procedure) -> Version:
-    parameters = [Parameter(**to_record(p), conditional=p.when is not None) for p in procedure.space]
+    said = procedure.signature.meanings
+    parameters = [
+        Parameter(**to_record(p), meaning=said.get(p.name, ""), conditional=p.when is not None) for p in procedure.space
+    ]
     return Version(procedure.name, parameters, procedure.space.defaults, procedure.facts, procedure.seconds)
 
 

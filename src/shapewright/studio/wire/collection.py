@@ -71,6 +71,7 @@ class Parameter(Struct, frozen=True, kw_only=True):
     steps: int | list[float] | None  # of a scalar: how many values, or which, it is sampled at; it may lie between
     options: list[Value] | None  # of a choice
     default: Value
+    meaning: str = ""  # what the author says of it in words
     conditional: bool = False  # it has a ``when``; every evaluation says which parameters are active
 
 

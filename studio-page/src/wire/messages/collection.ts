@@ -92,6 +92,8 @@ export interface Parameter {
   /** of a choice. */
   options: Value[] | null;
   default: Value;
+  /** what the author says of it in words. */
+  meaning: string;
   /** it has a ``when``; every evaluation says which parameters are active. */
   conditional: boolean;
 }
