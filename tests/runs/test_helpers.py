@@ -1,5 +1,6 @@
 """Files that a procedure imports from its own folder."""
 
+import sys
 from types import SimpleNamespace
 
 import pytest
@@ -168,6 +169,18 @@ def test_an_edited_helper_is_not_taken_for_the_one_of_the_run(folder, tmp_path):
     iteration = saved(folder / "model.py", tmp_path / "run")
     (folder / "shared.py").write_text("HEIGHT = 4.0\n")
     assert procedure_of(tmp_path / "run", iteration)().vertices.max() == 2.0
+
+
+@pytest.mark.parametrize("place", ["", "the folder"])
+def test_nor_is_one_of_the_working_folder(folder, tmp_path, monkeypatch, place):
+    iteration = saved(folder / "model.py", tmp_path / "run")
+    (folder / "shared.py").write_text("HEIGHT = 4.0\n")
+    monkeypatch.chdir(folder)
+    before = [place and str(folder), *sys.path]
+    monkeypatch.setattr(sys, "path", list(before))
+    copy = procedure_of(tmp_path / "run", iteration)
+    assert copy().vertices.max() == height(copy) == 2.0
+    assert sys.path[: len(before)] == before
 
 
 def test_a_file_that_is_too_large_is_told_and_asked_for_only_after_an_edit(tmp_path, monkeypatch):

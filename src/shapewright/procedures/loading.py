@@ -23,7 +23,7 @@ import linecache
 import re
 import sys
 import sysconfig
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeAlias
@@ -181,10 +181,10 @@ def executed(path: Path) -> ModuleType:
     folder = str(path.parent)
     before = set(sys.modules)
     sys.modules[module.__name__] = module
-    sys.path.insert(_behind_standard_library(), folder)
     linecache.checkcache(str(path))
     try:
-        exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
+        with _looked_in_first(folder):
+            exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
     except ProcedureError:
         raise
     except SyntaxError as error:
@@ -195,12 +195,35 @@ def executed(path: Path) -> ModuleType:
     except SystemExit as error:
         raise ProcedureError(f"{path}: the file ended the program (sys.exit) while it was read") from error
     finally:
-        sys.path.remove(folder)
-        if folder not in sys.path:
-            sys.path.append(folder)
         files = _forget_siblings(path.parent, before)
         module.__dict__[_HELPERS] = [file for file in files if file != path]
     return module
+
+
+@contextlib.contextmanager
+def _looked_in_first(folder: str) -> Iterator[None]:
+    """Modules are looked for in the author's folder before all others, such as the working folder, but Python's own.
+
+    Later they are looked for there last, for what the author imports in a function.
+    """
+    start = _behind_standard_library()
+    own = _standard_library()
+    others = [place for place in sys.path[:start] if place not in own]
+    sys.path[:start] = [*(place for place in sys.path[:start] if place in own), folder, *others]
+    try:
+        yield
+    finally:
+        for place in (folder, *others):
+            with contextlib.suppress(ValueError):  # the author may have removed it
+                sys.path.remove(place)
+        sys.path[:0] = others
+        if folder not in sys.path:
+            sys.path.append(folder)
+
+
+def _standard_library() -> set[str]:
+    own = {sysconfig.get_path("stdlib"), sysconfig.get_path("platstdlib")}
+    return own | {str(Path(folder) / "lib-dynload") for folder in own}
 
 
 def _behind_standard_library() -> int:
@@ -208,8 +231,7 @@ def _behind_standard_library() -> int:
 
     Libraries import those late too, and would get the author's file of the same name.
     """
-    own = {sysconfig.get_path("stdlib"), sysconfig.get_path("platstdlib")}
-    own |= {str(Path(folder) / "lib-dynload") for folder in own}
+    own = _standard_library()
     return max((i + 1 for i, folder in enumerate(sys.path) if folder in own), default=0)
 
 
