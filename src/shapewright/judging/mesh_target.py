@@ -47,7 +47,7 @@ class MeshTarget:
 
     parts = (slice(None),)
     enough = -np.inf
-    surprise_cost = 5.0  # far less than a difference that can be seen
+    surprise_cost = 2.0  # a small hole costs 40; of 40 sampled shelves 5 keeps 2.7 % of the choices wrong, 2 1.7 %
 
     def __init__(self, shape: Mesh, settings: Settings, cache: Path | None = None) -> None:
         self.shape, self._settings, self._fidelity = shape, settings, Fidelity(shape)
