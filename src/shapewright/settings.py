@@ -96,7 +96,7 @@ class Searching:
     """How parameters better than the predicted ones are searched for, by the judge's measure.
 
     Only procedures that need more than about 40 ms a mesh, or 4 ms a drawing, reach ``refine_seconds``. How far these
-    are searched depends on the machine.
+    are searched depends on the machine, but for few references: a search may build as many shapes as the samples are.
     """
 
     facing: Annotated[Facing, "found turns each reference by the quarter turns that fit best."] = "given"

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -51,7 +52,14 @@ def test_where_references_are_points_a_share_of_the_samples_is_scanned(of_meshes
     assert of_points.training.parameters == of_meshes.training.parameters
     assert any(isinstance(shape, Points) for shape in of_points.held_out.shapes)
     scalars = len(block.space)
-    assert of_points.budget(SETTINGS).evaluations(scalars) > of_meshes.budget(SETTINGS).evaluations(scalars)
+    assert of_points.budget(SETTINGS, 1).evaluations(scalars) > of_meshes.budget(SETTINGS, 1).evaluations(scalars)
+
+
+def test_few_references_of_a_slow_procedure_may_cost_as_many_shapes_as_the_samples(of_meshes):
+    slow, scalars = replace(of_meshes, facts={**of_meshes.facts, "build_seconds": 3.0}), len(block.space)
+    few, some, many = (slow.budget(SETTINGS, count).evaluations(scalars) for count in (1, 4, 1000))
+    assert many == 1 < some <= len(slow.training) / 4 < few <= len(slow.training)
+    assert of_meshes.budget(SETTINGS, 1000).evaluations(scalars) > few  # where a shape costs little, all moves
 
 
 def test_a_predictor_of_points_predicts_scans():

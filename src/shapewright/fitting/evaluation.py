@@ -100,7 +100,7 @@ def _refined(
     _, fields = judge.nearest(crew.build(prediction.decode()))
     stages.begin("refine", 1)
     criterion = judge.criterion(range(len(fields)), fields)
-    start, budget = SearchStart(prediction), lesson.budget(settings)
+    start, budget = SearchStart(prediction), lesson.budget(settings, len(prediction))
     refined = refine(start, criterion, crew, budget, settings.seed, stages.step)
     metrics = score(Prediction.of(crew.procedure.space, refined), held_out.targets, held_out.active)
     builds = crew.build(refined)

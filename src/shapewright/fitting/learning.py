@@ -46,12 +46,16 @@ class Lesson:
     held_out: Dataset  # the samples that it was measured on
     facts: dict[str, Any]  # what a run records of the samples and of the training
 
-    def budget(self, settings: Searching) -> Budget:
-        """How long to refine: what the settings say, or less where a shape takes long to build."""
+    def budget(self, settings: Searching, references: int) -> Budget:
+        """How long to refine each reference: what the settings say, or less where a shape takes long to build.
+
+        A search for few references may build as many shapes as there are samples, however long one takes.
+        """
         thorough = settings.refine == "thorough"
         budget = whole(self._sought, thorough)
         seconds = 10.0 * settings.refine_seconds if thorough else settings.refine_seconds
-        evaluations = settings.refine_shapes or seconds / max(self.facts["build_seconds"], 1e-6)
+        affordable = max(seconds / max(self.facts["build_seconds"], 1e-6), len(self.training) / max(references, 1))
+        evaluations = settings.refine_shapes or affordable
         return budget.within(evaluations, int(self.predictor.space.scalars.sum()))
 
     @property

@@ -106,7 +106,7 @@ def replicate(
         similar = most_similar(shown, lesson.training, settings.seed, settings.workers)
         start = replace(start, beside=similar)
     criterion = judge.criterion(rows, replicas.fields[rows])
-    refined = refine(start, criterion, crew, lesson.budget(settings), settings.seed, stages.step)
+    refined = refine(start, criterion, crew, lesson.budget(settings, len(rows)), settings.seed, stages.step)
     for i, values in zip(rows, refined, strict=True):
         vectors[i] = values
     return replicas.tried(vectors, crew, judge)

@@ -55,13 +55,13 @@ def _exactly(size: float, times: int = 1) -> tuple[Move, ...]:
 
 # Eight combinations are built, three get a model and follow it. The best one is then followed exactly: long probes see
 # what a thin wall changes, which is less than a sample of a picture is wide. With its scalars each single other choice
-# shows what it is worth, and the best is followed once more. It is explored further where a reference is incompatible
-# by less than 40 %. Chosen on furniture chairs and on shapes of the procedures themselves, reported on five other
-# collections (docs/benchmarks.md, "Longer probes and turned pictures").
+# shows what it is worth; the best two are followed beside it where they cost little more, since its scalars suit its
+# own choices. It is explored further where a reference is incompatible by less than 40 %. Chosen on furniture chairs
+# and on shapes of the procedures themselves, reported on five other collections (docs/benchmarks.md, "Longer probes").
 QUICK = Budget(
     (
         *(Scan(8), Probe(3, 0.08), Step(3, 3), *_exactly(0.1)),
-        *(SwitchChoices("single"), Scan(16), Return(keep=1)),
+        *(SwitchChoices("single"), Scan(16), Return(keep=2), Probe(2, 0.08, rival=1.5), Step(2, 3, rival=1.5)),
         *(*_exactly(0.05), *(Step(1, scatter=4, near=1.4),) * 2),
     )
 )
