@@ -19,6 +19,8 @@ PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglo
 COMMANDS = get_command(app).commands
 PROSE = {"again", "as", "import", "reads"}
 """Words that follow the project's name where no command is meant: "this version of shapewright reads"."""
+FILES = {"csv"}
+"""Endings of files that have the project's name: ``shapewright.csv``."""
 
 
 def texts(path):
@@ -58,7 +60,7 @@ def wrong_names(text):
         flags = re.findall(r"--[a-z-]+", re.split(r"[.)#] ", rest)[0])  # another sentence may be about another command
         yield from (f"{command} {flag}" for flag in flags if flag not in offered | {"--help"})
     for dotted in re.findall(r"\b(?:shapewright|sw)\.([A-Za-z_]+(?:\.[a-z_]+)*)", text):
-        if not exists(dotted):
+        if dotted not in FILES and not exists(dotted):
             yield f"shapewright.{dotted}"
 
 

@@ -32,12 +32,12 @@ def test_a_command_is_sampled_fitted_and_kept_in_its_run(tmp_path):
     )
     run = project / "runs" / "001"
     assert (run / "procedure.toml").read_text() == (project / "tool_box.toml").read_text()
-    assert (run / "tool_box.py").read_text() == (project / "tool_box.py").read_text()
+    assert (run / "procedure" / "tool_box.py").read_text() == (project / "tool_box.py").read_text()
     printed = shapewright("parameters", run, "--form", "json", cwd=project)
     assert printed.returncode == 0, printed.stderr
     assert set(json.loads(printed.stdout)["parameterSets"]) == set(record["results"])
     assert "there is no reference 'x'" in shapewright("parameters", run, "x", cwd=project).stderr.replace("\n", " ")
-    assert load_procedure(run / "procedure.toml")(width=300.0).extent[0] == 300.0
+    assert load_procedure(run / "procedure" / "tool_box.toml")(width=300.0).extent[0] == 300.0
 
 
 def test_a_failure_of_all_shapes_says_what_the_program_said(tmp_path):
