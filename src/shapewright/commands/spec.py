@@ -96,9 +96,10 @@ def read_spec(path: Path, draws: Mapping[str, Draw] | None = None) -> Spec:
     key = "run" if "run" in said else "call"
     recipe, recipe_files = _recipe(file)
     drawn = _is_drawn(said)
+    unread = drawn and not draws
     if draws:
         recipe = Recipe({name: draw.table for name, draw in draws.items()})
-    entries = _entries(file, recipe, drawn and not draws)
+    entries = _entries(file, recipe, may_be_empty=unread)
     words = _words(file) if key == "run" else ()
     spec = Spec(
         file=file,
@@ -116,7 +117,7 @@ def read_spec(path: Path, draws: Mapping[str, Draw] | None = None) -> Spec:
         environment={name: str(value) for name, value in said.get("environment", {}).items()},
         constraints=(
             *(recipe.constraints if recipe else ()),
-            *(() if drawn and not draws else _constraints(file, entries)),
+            *(() if unread else _constraints(file, entries)),
         ),
         place=file.place((key,)),
         helpers=tuple(dict.fromkeys([*_named(path.parent, words, said.get("call", "")), *recipe_files])),

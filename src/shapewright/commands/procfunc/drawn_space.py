@@ -72,15 +72,15 @@ def read_draws(
     steady = {key for there in tried.runs[: len(tried.runs) - len(tried.contexts)] for key in there}
     sites = {key: site_of(records[key]) for key in order}
     kept = [key for key in order if key in steady and not _held(records[key], sites[key]) and _ranged(records[key])]
-    names = _names([(records[key], sites[key]) for key in kept])
+    names = dict(zip(kept, _names([(records[key], sites[key]) for key in kept]), strict=True))
     parts = {key: _part([there[key] for there in tried.runs if key in there], sites[key]) for key in kept}
     made: dict[str, Draw] = {}
-    for key, name in zip(kept, names, strict=True):
+    for key, name in names.items():
         kind, options, table = parts[key]
-        conditions = _conditions(key, tried.groups, dict(zip(kept, names, strict=True)), parts)
+        conditions = _conditions(key, tried.groups, names, parts)
         within = _within(records[key], sites[key], records)
-        if within in kept and parts[within][0] == "option":
-            other = names[kept.index(within)]
+        if within in names and parts[within][0] == "option":
+            other = names[within]
             conditions.append((other, f"{other} == {parts[within][1][sites[key].option]!r}"))
         place = f"{Path(records[key]['file']).name}:{records[key]['line']}"
         said = {"description": f"{sites[key].function or records[key]['function']}, {place}"}
