@@ -140,6 +140,7 @@ def test_an_assertion_says_which_values_have_no_shape(tmp_path):
     ("text", "line", "message"),
     [
         ("w = 4; // [1:9]\ncubee(w);", 2, "Ignoring unknown module 'cubee'"),
+        ("w = 4; // [1:9]\ncylinder(h = undef, r = w);", None, "openscad-evaluator fails: float"),
         ("w = 4; // [1:9]\n\ncube(wide(w));", 3, "Ignoring unknown function 'wide'"),
         ('w = 4; // [1:9]\ncube(w);\nimport("gone.stl");', 3, "Can't open import file"),
         ("w = 4; // [1:9]\nmodule m() { }", None, "the shape is empty"),

@@ -75,8 +75,8 @@ def test_a_longer_range_of_an_integer_adds_at_least_what_is_asked_for():
     assert Integer("n", 1, 2, 1).widened(least=2) == Integer("n", 1, 4, 1)
 
 
-@pytest.mark.parametrize(("values", "kind"), [(2, Integer), (10, Integer), (11, Scalar), (26, Scalar), (2000, Scalar)])
-def test_an_integer_of_more_than_ten_values_is_a_number_that_is_rounded(values, kind):
+@pytest.mark.parametrize(("values", "kind"), [(2, Integer), (16, Integer), (17, Scalar), (26, Scalar), (2000, Scalar)])
+def test_an_integer_of_more_than_sixteen_values_is_a_number_that_is_rounded(values, kind):
     hole = whole_number("hole", 5, 4 + values, 5)
     assert isinstance(hole, kind) and bool(hole.classes) == (kind is Integer)
     numbers = range(5, 5 + values)

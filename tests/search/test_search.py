@@ -12,7 +12,7 @@ from shapewright.modelling.solids import box, cylinder
 from shapewright.parameters import Prediction
 from shapewright.search.budgets import QUICK, THOROUGH, Budget
 from shapewright.search.candidates import others
-from shapewright.search.moves import Probe, Return, Scan, Step, SwitchChoices, UseScale
+from shapewright.search.moves import Continue, Probe, Return, Scan, Step, SwitchChoices, UseScale
 from shapewright.search.objective import Criterion
 from shapewright.search.search import SearchStart, refine
 
@@ -142,6 +142,45 @@ def test_others_are_a_single_choice_away_or_the_likeliest_each_once():
     known = [tuple(v) for v in others(space, centre, likely)]
     assert known == [*(tuple(v) for v in away), (0.25, 2, 2), (0.25, 1, 2), (0.25, 2, 1)]
     assert [tuple(v) for v in others(space, np.array([0.25, 0.0, 1.0]), likely)][4:] == [(0.25, 2, 2), (0.25, 1, 2)]
+
+
+def test_counts_of_many_values_are_changed_by_one_and_two_and_lengths_in_millimetres_are_not():
+    teeth = sw.Scalar("teeth", 14, 40, 20, whole=True)
+    space = sw.ParameterSpace((teeth, sw.Scalar("length", 40, 140, 90, whole=True), sw.Scalar("width", 3, 20, 8)))
+    beside = others(space, np.array([teeth.encode(39), 0.5, 0.5]))
+    assert [space.decode(vector)["teeth"] for vector in beside] == [38, 40, 37]
+    assert all(vector[1] == vector[2] == 0.5 for vector in beside)
+
+
+def test_of_too_many_other_choices_the_likeliest_are_built():
+    start = predicted((0.6, 0.3, [0.9, 0.01, 0.09], 0.3))
+    built = []
+
+    def measure(pairs):
+        built.extend(mesh for _, mesh in pairs)
+        return measure_against([post(height=1.4, width=0.3, form="square", cap=0.3)])(pairs)
+
+    budget = Budget((Scan(1), SwitchChoices("single"), Scan(1)))
+    with Workers(post, 1) as crew:
+        refine(SearchStart(start), Criterion(measure, surprise_cost=1.0), crew, budget)
+    bare = post(height=1.4, width=0.3, form="bare")
+    assert len(built) == 2 and built[1].vertices.shape == bare.vertices.shape  # not the round one, which comes first
+
+
+def test_a_search_goes_on_where_its_cost_falls_and_ends_where_it_does_not():
+    start = predicted((0.6, 0.3, SURE, 0.3), (0.6, 0.3, SURE, 0.3))
+    near = measure_against([post(height=1.5, width=0.35, form="square", cap=0.4)])
+    rounds = []
+
+    def measure(pairs):
+        rounds.append({row for row, _ in pairs})
+        return [near([(0, mesh)])[0] if row == 0 else np.full(9, 100.0) for row, mesh in pairs]
+
+    model = (Scan(1), Probe(1, 0.08), Step(1, 3))
+    budget = Budget((*model, Continue(), Probe(1, 0.05, both=True, again=True), Step(1, 3), Continue(0.8), Step(1)))
+    with Workers(post, 1) as crew:
+        refine(SearchStart(start), Criterion(measure), crew, budget)
+    assert rounds[-2] == {0, 1} and rounds[-1] == {0}
 
 
 def test_budgets_are_cut_to_what_there_is_time_for():

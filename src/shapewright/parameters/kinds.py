@@ -201,9 +201,10 @@ class Integer:
         return replace(self, low=low, high=self.high + span)
 
 
-MOST_CLASSES = 10
+MOST_CLASSES = 16
 """Values of an integer up to which each is a class of its own. A hole of 26 widths in millimetres was found to 38 % of
-its Range as classes, to 15 % as a number; counts of parts, which have few values, change what the picture shows."""
+its Range as classes, to 15 % as a number; counts of parts, which have few values, change what the picture shows: 3 to
+14 candles round a ring were found to 25 % of that Range as a number."""
 
 
 def whole_number(

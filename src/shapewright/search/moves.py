@@ -51,8 +51,9 @@ class Step:
 class SwitchChoices:
     """Go on from other choices, while the best combination rests until it returns.
 
-    "single" are the combinations that differ from the best one in one choice. "likely" are these and the likeliest
-    ones; "defaults" are the single ones and the best one, all with their scalars at the defaults.
+    "single" are the combinations that differ from the best one in one choice, or in a count by one or two. "likely"
+    are these and the likeliest ones; "defaults" are the single ones and the best one, all with their scalars at the
+    defaults.
     """
 
     to: Literal["single", "likely", "defaults"]
@@ -74,8 +75,15 @@ class UseScale:
     keep: int  # how many combinations go on, the best by the scale before
 
 
+@dataclass(frozen=True)
+class Continue:
+    """Go on where the cost falls: end the searches that have more left than a share of it since the last such move."""
+
+    share: float = 1.0  # of the cost at the last such move; the first one ends nothing
+
+
 BuildingMove: TypeAlias = Scan | Probe | Step
-Move: TypeAlias = BuildingMove | SwitchChoices | Return | UseScale
+Move: TypeAlias = BuildingMove | SwitchChoices | Return | UseScale | Continue
 
 
 def evaluations(move: Move, scalars: int) -> int:

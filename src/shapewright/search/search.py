@@ -17,7 +17,8 @@ from shapewright.building import Workers
 from shapewright.parameters import Parameters, Prediction
 from shapewright.search.budgets import QUICK, Budget
 from shapewright.search.candidates import Bounds, Candidate, others, points
-from shapewright.search.moves import BuildingMove, Probe, Return, Scan, Step, SwitchChoices
+from shapewright.search.exhaustion import best_of_all, is_small
+from shapewright.search.moves import BuildingMove, Continue, Probe, Return, Scan, Step, SwitchChoices
 from shapewright.search.objective import Criterion
 from shapewright.shapes import Floats
 
@@ -55,11 +56,13 @@ class _Search:
     best: Parameters | None = None  # of the least cost by the present part; None before any shape was measured
     cost: float = np.inf
     resting: Candidate | None = None  # the best candidate, while others are tried
+    before: float = np.inf  # the cost at the last ``Continue``
     idle: int = 0  # rounds in a row without progress
     done: bool = False
 
     def sort(self) -> None:
-        self.candidates.sort(key=lambda candidate: candidate.cost)
+        """The cheapest first; of those that were not measured yet the likeliest."""
+        self.candidates.sort(key=lambda candidate: (candidate.cost, candidate.surprise))
 
 
 def refine(
@@ -73,9 +76,12 @@ def refine(
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
     progress: is told how many of the budget's rounds are over. The cost never rises above that of the prediction, where
-    the criterion has one part. A reference's result does not depend on the other references.
+    the criterion has one part. A reference's result does not depend on the other references, but for spaces of few
+    shapes: all of them are built once where the references together may build as many.
     """
     space, parts = start.prediction.space, criterion.parts
+    if start.within is None and is_small(space) and space.combinations <= budget.evaluations(0) * len(start.prediction):
+        return best_of_all(start.prediction, criterion, crew, progress)
     searches = [_begun(start, criterion, budget, seed, row) for row in range(len(start.prediction))]
     fallback = [space.canonical(space.decode(search.candidates[0].vector)) for search in searches]
     scale, rounds = 0, 0
@@ -88,6 +94,11 @@ def refine(
             rounds += 1
             if progress:
                 progress(rounds, budget.rounds)
+            continue
+        if isinstance(move, Continue):
+            for search in going:
+                search.done |= search.cost >= move.share * search.before
+                search.before = search.cost
             continue
         before = scale
         if not isinstance(move, Return) and move.scale is not None:

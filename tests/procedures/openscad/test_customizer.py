@@ -52,6 +52,8 @@ HELD = [
     "n = 5; // [mm]",
     "v = [1, 2];",
     'text = "BOX"; // 8',
+    "n = 20; // [20:20]",
+    "v = [20, 20]; // [20:20]",
     'file = ""; // [image_surface:100x100]',
 ]
 
@@ -70,6 +72,7 @@ def test_a_value_without_annotation_is_held(text):
     ("text", "message"),
     [
         ("n = 5; // [10:1]", r"n: \[10:1\] has no values; write the lower end first"),
+        ("n = 5; // [10:10]", "has no values"),
         ("n = 5; // [0:0:10]", "a step of 0"),
         ("n = 5; // [4, six, 8]", "'six' is none"),
         ("n = 5; // [4, 6, 8]", "the value 5 is not one of"),

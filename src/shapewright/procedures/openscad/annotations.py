@@ -41,7 +41,8 @@ def hint(value: Literally, comment: str) -> tuple[Any, str]:
     if isinstance(value, tuple):
         if not _LIMITS.fullmatch(inside):
             return None, ""
-        return tuple[tuple(_limits(inside, one) for one in value)], ""  # type: ignore[misc]
+        limits = tuple(_limits(inside, one) for one in value)
+        return (None if None in limits else tuple[limits]), ""  # type: ignore[valid-type]
     if not isinstance(value, str) and _LIMITS.fullmatch(inside):
         return _limits(inside, value), ""
     return _options(inside, value)
@@ -56,6 +57,8 @@ def _limits(inside: str, value: int | float) -> Any:
     numbers = [number(part) for part in inside.split(":")]
     low, high = (0, numbers[0]) if len(numbers) == 1 else (numbers[0], numbers[-1])
     step = numbers[1] if len(numbers) == 3 else 1
+    if low == high == value and len(numbers) > 1:
+        return None  # a slider that cannot be moved
     if not low < high:
         raise ValueError(f"[{inside}] has no values; write the lower end first: [low:high] or [low:step:high]")
     if not step > 0:

@@ -72,6 +72,8 @@ def evaluated(file: Path, values: Mapping[str, Any], stamp: str) -> Any:
         raise failure(file, str(error)) from error
     except RecursionError as error:
         raise ProcedureError("modules or functions call themselves without end", Place(str(file), None)) from error
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:  # of the evaluator itself
+        raise Lacking(f"openscad-evaluator fails: {error}", Place(str(file), None)) from error
     warnings = [message.removeprefix("WARNING: ") for message in said if message.startswith("WARNING: ")]
     for warning in warnings:
         if is_lacking(warning):
