@@ -12,7 +12,7 @@ from shapewright.parameters import Parameters
 AnswerKind = Literal["carried over", "most similar samples", "predicted"]
 """Where parameters that are shown before the end of a fit come from: the run before, the first samples, the network."""
 
-NoticeKind = Literal["waiting", "pace", "within", "kept", "stochastic", "lying", "not kept"]
+NoticeKind = Literal["waiting", "pace", "within", "kept", "stochastic", "lying", "size", "not kept"]
 """What a notice is about: no shape yet, the cost of a shape, how a limit of time is divided, samples of an earlier run
 that are used again, a procedure that builds other shapes from the same parameters, references in
 which another axis is up than in its shapes, and files that it reads of which runs keep no copy."""

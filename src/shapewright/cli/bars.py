@@ -87,6 +87,6 @@ def progress_bars() -> Iterator[Listener]:
 
 
 def _print_notice(notice: Notice) -> None:
-    style = "yellow" if notice.kind in ("stochastic", "lying") else "dim"
+    style = "yellow" if notice.kind in ("stochastic", "lying", "size") else "dim"
     text = escape(notice.text + _OPTIONS.get(notice.kind, ""))
     err.print(f"[{style}]{text}[/]", highlight=False, soft_wrap=True)

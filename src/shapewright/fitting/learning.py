@@ -15,7 +15,7 @@ from shapewright.fitting.pacing.pace import paced
 from shapewright.fitting.pacing.stock import Stock
 from shapewright.fitting.sensitivity import without_effect
 from shapewright.fitting.standing import lying
-from shapewright.fitting.start import Start
+from shapewright.fitting.start import Start, as_large
 from shapewright.parameters import Parameters, ParameterSpace
 from shapewright.prediction.augmentation import augmented
 from shapewright.prediction.dataset import Dataset, join, make_dataset, shapes_of, split
@@ -109,6 +109,8 @@ def learn(
         stages.answer(start.most_similar(first, settings.workers), "most similar samples")
         if found := lying(start.references, first, crew.procedure.facts.up):
             stages.tell(found.notice)
+        if sized := as_large(start.references, builds, crew.procedure):
+            stages.tell(sized)
     builds += stock.build(vectors[FIRST:], lambda done, total: stages.step(FIRST + done, FIRST + total))
     inert = without_effect(space, shapes_of(builds, kind)[0], crew.build, settings.seed, settings.workers)
     stages.begin("render", len(vectors))

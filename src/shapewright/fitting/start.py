@@ -5,14 +5,28 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from shapewright.building import Build
 from shapewright.parameters import Parameters, ParameterSpace, Scalar
 from shapewright.prediction.dataset import Dataset
 from shapewright.prediction.lookup import nearest
 from shapewright.prediction.predictor import Predictor
 from shapewright.procedures import Procedure
+from shapewright.progress import Notice
 from shapewright.references import Collection
 from shapewright.rendering.raster import render
 from shapewright.runs.iteration import Iteration
+from shapewright.shapes import Drawing, extent_of
+
+_FEWEST = 3
+"""References that tell whether sizes could count: one has a size of the procedure's by chance."""
+_VARIED = 1.1
+"""Longest side of the largest of them beside the least: those that somebody has normalised are of nearly one size."""
+_WRITTEN = {
+    ".scad": "write // shapewright: size=given into the file",
+    ".toml": 'write size = "given" into the file',
+    ".blend": "write size=given into the file's text shapewright",
+}
+_IN_PYTHON = 'write size="given" beside unit= in @procedure'
 
 
 def for_procedure(references: Collection, procedure: Procedure) -> Collection:
@@ -23,6 +37,27 @@ def for_procedure(references: Collection, procedure: Procedure) -> Collection:
     facts = procedure.facts
     references = references if facts.up == "y" else references.standing(facts.up)
     return references.sized(facts.metres) if facts.size == "given" else references
+
+
+def as_large(references: Collection, builds: Sequence[Build], procedure: Procedure) -> Notice | None:
+    """That sizes could count: the procedure has a unit, and makes shapes as large as each of the references.
+
+    Where only proportions count, lengths that all grow together cannot be told apart.
+    """
+    facts = procedure.facts
+    if facts.size == "given" or facts.unit is None or references.kind is Drawing or references.in_views:
+        return None
+    made = [extent_of(build.shape) for build in builds if build.shape is not None]
+    asked = [extent for extent in references.sized(facts.metres).extents if extent is not None]
+    if len(asked) < _FEWEST or not made or max(asked) < _VARIED * min(asked):
+        return None
+    if min(asked) < min(made) or max(asked) > max(made):
+        return None
+    how = _WRITTEN.get(procedure.path.suffix if procedure.path else "", _IN_PYTHON)
+    sizes = f"{min(asked):.3g} to {max(asked):.3g} {facts.unit}"
+    return Notice(
+        "size", f"the references are as large as what the procedure builds, {sizes}: {how} to find lengths too"
+    )
 
 
 @dataclass(frozen=True, eq=False)
