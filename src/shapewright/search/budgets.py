@@ -67,14 +67,15 @@ def _exactly(size: float, times: int = 1) -> tuple[Move, ...]:
 # Eight combinations are built, three get a model and follow it. The best one is then followed exactly: long probes see
 # what a thin wall changes, which is less than a sample of a picture is wide. With its scalars each single other choice
 # shows what it is worth; the best two are followed beside it where they cost little more, since its scalars suit its
-# own choices. After the next exact turn other choices are looked at again: a small hole shows once the rest lies right.
-# It is explored further where a reference is incompatible by less than 40 %, and where the procedure seems to make the
-# reference, since the cost still falls. Chosen on furniture chairs and on shapes of the procedures themselves, reported
-# on five other collections (docs/benchmarks.md, "Longer probes" and "A second look at choices").
+# own choices. Two, since the best one often changes next to nothing. After the next exact turn other choices are looked
+# at again: a small hole shows once the rest lies right. It is explored further where a reference is incompatible by
+# less than 40 %, and where the procedure seems to make the reference, since the cost still falls. Chosen on furniture
+# chairs and tables and on shapes of the procedures themselves, reported on other collections (docs/benchmarks.md,
+# "Longer probes" and "A second look at choices").
 QUICK = Budget(
     (
         *(Scan(8), Probe(3, 0.08), Step(3, 3), *_exactly(0.1)),
-        *(SwitchChoices("single"), Scan(16), Return(keep=2), Probe(2, 0.08, rival=1.5), Step(2, 3, rival=1.5)),
+        *(SwitchChoices("single"), Scan(16), Return(keep=2), Probe(3, 0.08, rival=1.3), Step(3, 3, rival=1.3)),
         *(Continue(), *_exactly(0.05), SwitchChoices("single"), Scan(16), Return(keep=2)),
         *(*(Step(1, scatter=4, near=1.4),) * 2, Continue(0.8)),
         *(Probe(2, 0.05, rival=1.5), Step(2, 3, rival=1.5), *_exactly(0.05), Continue(0.8), *_exactly(0.03)),
