@@ -7,6 +7,9 @@ import shapewright as sw
 from shapewright.building import Workers
 from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.proposal import Misfit, Proposal
+from shapewright.feedback.trials.change import Trials, change_of
+from shapewright.feedback.trials.outcome import Outcome
+from shapewright.feedback.trials.random_shapes import RandomShapes
 from shapewright.feedback.trials.selection import selected
 from shapewright.feedback.writing.change import FileChange, NewLimits
 from shapewright.judging.judge import Judge
@@ -94,3 +97,27 @@ def test_the_way_to_a_replicated_shape():
     misfit = Misfit(near, near, near)
     assert [misfit.way(apart) for apart in (1.6, 1.5, 1.25, 1.0, 0.4)] == [0.0, 0.0, 0.5, 1.0, 1.0]
     assert Misfit(far, far, far).way(1.5) == 0.5
+
+
+@pytest.mark.parametrize(
+    ("aparts", "helped", "value"),
+    [
+        ([2.0] * 4 + [1.8] * 4, (4, 5, 6, 7), 0.8),  # half of them come a fifth of the way
+        ([2.0] * 7 + [1.3], (7,), 0.7),  # one comes near
+        ([1.8] * 3 + [2.0] * 5, None, 0.0),  # three come a little nearer: by chance
+        ([2.0] * 4 + [1.97] * 4, None, 0.0),  # so little that it says nothing
+        ([1.8] * 4 + [2.0] * 16, None, 0.0),  # few of many
+        ([1.9] * 4 + [2.0] * 4, None, 0.0),  # a tenth of the way for half: too little to be read
+    ],
+)
+def test_a_step_that_carries_nobody_all_the_way_is_worth_showing_where_many_come_nearer(post, aparts, helped, value):
+    start, later = {"height": 1.0, "depth": 0.1}, {"height": 2.0, "depth": 0.1}
+    before = [Replica(row, start, box(1.0).mesh(), 0.3, apart=2.0) for row in range(len(aparts))]
+    misfits = [Misfit(replica, replica, replica) for replica in before]
+    _, judge = tall(post, (3.0,))
+    with Workers(post, 1) as crew:
+        trials = Trials(post.space, crew, misfits, judge, RandomShapes.of(crew, 0))
+    outcome = Outcome.of(Replica(row, later, box(1.0).mesh(), 0.3, apart=apart) for row, apart in enumerate(aparts))
+    changes = list(change_of(trials, longer("height", 4.0, range(len(aparts))), outcome))
+    assert [change.helped for change in changes] == ([] if helped is None else [helped])
+    assert [change.value for change in changes] == ([] if helped is None else [pytest.approx(value)])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -22,6 +22,7 @@ from shapewright.procedures import ProcedureError
 
 # Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _NEARER = 0.25  # of the way to a replicated replica, that a reference has to come to be helped
+_SLIGHTLY, _MANY, _SEVERAL = 0.05, 0.25, 4  # nearer by less, but a share of all misfits, and at least so many of them
 _LEAST_VALUE = 0.6  # of a change to be shown: one reference nearly all the way, or some a part of it
 _READING = 12  # lines of code that reading any suggestion costs as much as
 _LOST = 0.1  # further apart with the final Ranges: worth another search
@@ -46,7 +47,7 @@ class Change:
     ranges: Ranges  # those that the references need
     edit: FileChange  # of the author's file, with these Ranges
     outcome: Outcome  # what it gives for the references
-    helped: tuple[int, ...]  # rows of the references that come much nearer, replicated ones with them
+    helped: tuple[int, ...]  # rows of the references that come nearer, replicated ones with them
     value: float  # how many references it carries all the way, where two halves count as one
 
     @cached_property
@@ -67,13 +68,22 @@ class Change:
 
 def change_of(trials: Trials, idea: Proposal, outcome: Outcome) -> Iterator[Change]:
     """The change where it brings enough, with the Ranges that the references need which it brings nearer."""
-    ways = {m.row: way(m, outcome) for m in trials.misfits}
-    helped = tuple(row for row, done in ways.items() if done >= _NEARER)
-    value = sum(ways[row] + 0.5 * max(1.0 - outcome.apart(row), 0.0) for row in helped)
+    helped = _helped({m.row: way(m, outcome) for m in trials.misfits})
+    value = sum(done + 0.5 * max(1.0 - outcome.apart(row), 0.0) for row, done in helped.items())
     if value >= _LEAST_VALUE:
         ranges = narrowed(idea, trials.space, [outcome.parameters[row] for row in helped])
         if idea.rule or any(_reads_longer(trials.space[name], *ranges[name][:2]) for name in ranges):
-            yield Change(idea, ranges, idea.change(ranges), outcome, helped, value)
+            yield Change(idea, ranges, idea.change(ranges), outcome, tuple(helped), value)
+
+
+def _helped(ways: Mapping[int, float]) -> dict[int, float]:
+    """The ways of those that come much nearer; where many come a little nearer, of all of these.
+
+    A right step often carries nobody all the way: the back of a chair leans, but its legs are still another form.
+    """
+    much = {row: done for row, done in ways.items() if done >= _NEARER}
+    some = {row: done for row, done in ways.items() if done >= _SLIGHTLY}
+    return some if len(some) >= max(_SEVERAL, _MANY * len(ways)) else much
 
 
 def _reads_longer(parameter: Any, low: float, high: float) -> bool:
