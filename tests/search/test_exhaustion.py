@@ -10,7 +10,8 @@ from shapewright.building import Workers
 from shapewright.comparison.light_field.aligned import AlignedCost
 from shapewright.modelling.solids import box
 from shapewright.parameters import Prediction
-from shapewright.search.budgets import QUICK
+from shapewright.search.budgets import CHOSEN, QUICK, whole
+from shapewright.search.candidates import others
 from shapewright.search.exhaustion import best_of_all, is_small
 from shapewright.search.objective import Criterion
 from shapewright.search.search import SearchStart, refine
@@ -76,6 +77,34 @@ def test_a_search_that_may_build_less_than_all_shapes_takes_the_likeliest():
     with Workers(rack, 1) as crew:
         refine(SearchStart(unsure(1)), Criterion(measure), crew, QUICK.within(5, 0))
     assert len(asked) <= 5
+
+
+@sw.procedure
+def grid(
+    across: Annotated[int, Range(1, 12)] = 4,
+    up: Annotated[int, Range(1, 12)] = 4,
+    deep: Annotated[int, Range(1, 12)] = 4,
+    back: bool = False,
+):
+    wide, high, depth = 0.2 * across, 0.2 * up, 0.2 * deep
+    return [box((wide, high, depth)), *([box((wide, 2 * high, 0.1), at=(0, high / 2, -depth / 2))] if back else [])]
+
+
+def test_counts_alone_are_changed_one_after_the_other_while_that_brings_something():
+    truth = {"across": 4, "up": 11, "deep": 7, "back": True}
+    cost = AlignedCost(grid(**truth))
+
+    def measure(pairs):
+        return [cost.residual(mesh) for _, mesh in pairs]
+
+    guess = Prediction.of(grid.space, [{"across": 4, "up": 4, "deep": 4, "back": False}], 0.1)
+    assert not is_small(grid.space) and whole("meshes", thorough=False, numbers=False) == CHOSEN
+    with Workers(grid, 1) as crew:
+        (found,) = refine(SearchStart(guess), Criterion(measure), crew, CHOSEN)
+        (quick,) = refine(SearchStart(guess), Criterion(measure), crew, QUICK)
+    beside = [grid.space.decode(vector) for vector in others(grid.space, grid.space.encode(found))]
+    assert min(cost(grid(**values)) for values in beside) >= cost(grid(**found)) < cost(grid(**quick))
+    assert found["back"]
 
 
 def test_a_number_makes_a_space_large():

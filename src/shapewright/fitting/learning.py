@@ -52,11 +52,12 @@ class Lesson:
         A search for few references may build as many shapes as there are samples, however long one takes.
         """
         thorough = settings.refine == "thorough"
-        budget = whole(self._sought, thorough)
+        scalars = int(self.predictor.space.scalars.sum())
+        budget = whole(self._sought, thorough, numbers=scalars > 0)
         seconds = 10.0 * settings.refine_seconds if thorough else settings.refine_seconds
         affordable = max(seconds / max(self.facts["build_seconds"], 1e-6), len(self.training) / max(references, 1))
         evaluations = settings.refine_shapes or affordable
-        return budget.within(evaluations, int(self.predictor.space.scalars.sum()))
+        return budget.within(evaluations, scalars)
 
     @property
     def _sought(self) -> Sought:

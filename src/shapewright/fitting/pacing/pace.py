@@ -59,8 +59,9 @@ def _work(
     references = len(start.references) if start else 0
     replicas = references * (2 + (4 if settings.facing == "found" else 0))
     rounds = settings.rounds * (settings.round_samples + 2 * references)
-    budget = whole(_sought(builds, start), settings.refine == "thorough")
-    search = 0 if settings.refine == "off" or not references else budget.evaluations(int(space.scalars.sum()))
+    scalars = int(space.scalars.sum())
+    budget = whole(_sought(builds, start), settings.refine == "thorough", numbers=scalars > 0)
+    search = 0 if settings.refine == "off" or not references else budget.evaluations(scalars)
     return Work(samples, references, _TRIED * len(space) + replicas + rounds, search)
 
 
