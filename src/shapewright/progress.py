@@ -14,8 +14,8 @@ AnswerKind = Literal["carried over", "most similar samples", "predicted"]
 
 NoticeKind = Literal["waiting", "pace", "within", "kept", "stochastic", "lying", "size", "not kept"]
 """What a notice is about: no shape yet, the cost of a shape, how a limit of time is divided, samples of an earlier run
-that are used again, a procedure that builds other shapes from the same parameters, references in
-which another axis is up than in its shapes, and files that it reads of which runs keep no copy."""
+that are used again, a procedure that builds other shapes from the same parameters, references in which another axis is
+up than in its shapes, or that are as large as these, and files that it reads of which runs keep no copy."""
 
 
 @dataclass(frozen=True)

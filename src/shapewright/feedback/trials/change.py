@@ -22,7 +22,8 @@ from shapewright.procedures import ProcedureError
 
 # Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _NEARER = 0.25  # of the way to a replicated replica, that a reference has to come to be helped
-_SLIGHTLY, _MANY, _SEVERAL = 0.05, 0.25, 4  # nearer by less, but a share of all misfits, and at least so many of them
+_SLIGHTLY = 0.05  # of the same: nearer by chance is less. This and the next by hand, on chairs of benchmarks/hour.py
+_MANY, _SEVERAL = 0.25, 4  # share and number of the misfits that have to come slightly nearer, where that is to count
 _LEAST_VALUE = 0.6  # of a change to be shown: one reference nearly all the way, or some a part of it
 _READING = 12  # lines of code that reading any suggestion costs as much as
 _LOST = 0.1  # further apart with the final Ranges: worth another search
