@@ -199,8 +199,6 @@ Sought: TypeAlias = Literal["meshes", "scans", "views", "drawings"]
 
 def whole(sought: Sought, thorough: bool, numbers: bool = True) -> Budget:
     """The budget where no time is short. numbers: whether any parameter is one."""
-    if sought == "meshes" and not numbers:
-        return CHOSEN
     match sought:
         case "drawings":
             return DRAWN_THOROUGH if thorough else DRAWN
@@ -208,4 +206,6 @@ def whole(sought: Sought, thorough: bool, numbers: bool = True) -> Budget:
             return VIEWED_THOROUGH if thorough else VIEWED
         case "scans":
             return THOROUGH if thorough else SCANNED
+    if not numbers:
+        return CHOSEN
     return THOROUGH if thorough else QUICK

@@ -150,9 +150,7 @@ def points(
 def _probed(centre: Floats, free: np.ndarray, bounds: Bounds, probe: Probe) -> Iterator[Floats]:
     """One vector for each free scalar, to the side where there is room, or one to each side."""
     least, most = bounds
-    for p in np.flatnonzero(free):
+    for p in np.flatnonzero(free).tolist():
         above, below = (min(probe.size, room) for room in (most[p] - centre[p], centre[p] - least[p]))
         for side in (above, -below) if probe.both else (above if above >= below else -below,):
-            vector = centre.copy()
-            vector[p] += side
-            yield vector
+            yield _with(centre, p, centre[p] + side)

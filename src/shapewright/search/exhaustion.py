@@ -8,6 +8,7 @@ import numpy as np
 
 from shapewright.building import Workers
 from shapewright.parameters import Parameters, ParameterSpace, Prediction
+from shapewright.search.candidates import Candidate
 from shapewright.search.objective import Criterion
 
 _MOST = 128
@@ -24,23 +25,16 @@ def best_of_all(
 ) -> list[Parameters]:
     """The parameters of the least cost for each reference; the predicted ones where nothing can be measured."""
     space, last = prediction.space, criterion.parts[-1]
-    builds = [build for build in crew.build(space.sample(_MOST)) if build.shape is not None]
-    vectors = [space.encode(build.parameters) for build in builds]
+    made = [(build.parameters, build.shape) for build in crew.build(space.sample(_MOST)) if build.shape is not None]
+    vectors = [space.encode(parameters) for parameters, _ in made]
     best = prediction.decode()
     for row in range(len(prediction)):
-        residuals = criterion.measure([(row, build.shape) for build in builds if build.shape is not None])
-        costs = [
-            np.inf
-            if residual is None
-            else float(np.abs(residual[last]).sum()) + _surprise(prediction, criterion, row, v)
-            for residual, v in zip(residuals, vectors, strict=True)
-        ]
+        residuals = criterion.measure([(row, shape) for _, shape in made])
+        candidates = [Candidate(vector, criterion.surprise(prediction, row, vector)) for vector in vectors]
+        pairs = zip(candidates, residuals, strict=True)
+        costs = [np.inf if residual is None else each.cost_of(residual, last) for each, residual in pairs]
         if costs and min(costs) < np.inf:
-            best[row] = builds[int(np.argmin(costs))].parameters
+            best[row] = made[int(np.argmin(costs))][0]
         if progress:
             progress(row + 1, len(prediction))
     return best
-
-
-def _surprise(prediction: Prediction, criterion: Criterion, row: int, vector: np.ndarray) -> float:
-    return criterion.surprise_cost and criterion.surprise_cost * prediction.surprise(row, vector)

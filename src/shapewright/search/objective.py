@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from shapewright.parameters import Prediction
 from shapewright.shapes import Floats, Shape
 from shapewright.threads import in_threads
 
@@ -49,3 +50,7 @@ class Criterion:
     enough: float = -math.inf  # a cost, by the last part, at which the search for a reference ends
     surprise_cost: float = 0.0  # by how much it rises
     reach: float = 1.0  # by which what moves call near to the goal is multiplied: more where noise is in all costs
+
+    def surprise(self, prediction: Prediction, row: int, vector: Floats) -> float:
+        """What it costs that the choices of an encoded vector (P,) are unlikely for one reference."""
+        return self.surprise_cost and self.surprise_cost * prediction.surprise(row, vector)

@@ -137,8 +137,7 @@ def _begun(start: SearchStart, criterion: Criterion, budget: Budget, seed: int, 
 
 
 def _candidate(start: SearchStart, criterion: Criterion, budget: Budget, row: int, vector: Floats) -> Candidate:
-    cost = criterion.surprise_cost
-    return Candidate(vector, cost and cost * start.prediction.surprise(row, vector), spread=budget.spread)
+    return Candidate(vector, criterion.surprise(start.prediction, row, vector), spread=budget.spread)
 
 
 def _compare(search: _Search, start: SearchStart, part: slice, keep: int, back: bool) -> None:
