@@ -10,9 +10,9 @@ from shapewright.modelling.solids import Solid, Vector
 from shapewright.parameters import ParameterSpace
 from shapewright.procedures.signature import signature_of
 
-Stance = Literal["under", "on", "beside", "front", "back", "within", "around", "body"]
+Stance = Literal["under", "on", "beside", "front", "back", "within", "around", "body", "anywhere"]
 """Where a part stands in a shape: it carries the rest, stands on it, sticks out at a side, in front or at the back,
-lies inside, reaches round it, or is the body itself."""
+lies inside, reaches round it, is the body itself, or stands anywhere."""
 
 
 @dataclass(frozen=True, eq=False)

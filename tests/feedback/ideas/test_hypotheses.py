@@ -64,6 +64,15 @@ def test_only_what_stands_on_the_floor_leans():
     assert not any(each.splayed for each in found((sloping | legs()).mesh(), (top() | legs()).mesh()))
 
 
+def test_a_round_foot_that_is_square():
+    pole = box((0.05, 1, 0.05)).label("pole")
+    square, disc = box((0.5, 0.04, 0.5), (0, -0.48, 0)), cylinder((0.56, 0.04, 0.56), (0, -0.48, 0))
+    for theirs, ours, kind in ((square, disc, "box"), (disc, square, "cylinder")):
+        best = found((pole | theirs).mesh(), (pole | ours.label("foot")).mesh())[0]
+        assert best.removed == ("foot",) and [piece.kind for piece in best.pieces] == [kind]
+        assert best.cost < 0.5 * best.before
+
+
 def test_nothing_is_proposed_for_equal_shapes():
     mesh = (top() | legs()).mesh()
     assert found(mesh, mesh) == []

@@ -7,6 +7,7 @@ from shapewright.feedback.ideas.hypothesis import ALL_OTHERS, Hypothesis
 from shapewright.feedback.ideas.needed_ranges import narrowed
 from shapewright.feedback.ideas.proposal import Misfit
 from shapewright.feedback.ideas.proposals import frames_of, proposals
+from shapewright.feedback.ideas.wider_ranges import of_longer
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.parts.pieces import Piece
 from shapewright.feedback.parts.supports import bounds_of
@@ -70,6 +71,12 @@ def test_ends_that_several_misfits_rest_on_are_moved_alone_and_together(table, t
     assert needed["height"] == pytest.approx((0.4, 1.1, 0.6))
     assert loads(tmp_path, height, needed).space["height"].steps == 8
     assert narrowed(height, table.space, [{"height": 1.59}])["height"][1] <= 1.6
+    (both,) = [each for each in ranges if each.title == "A wider Range of drawers and height"]
+    shorter, longer = of_longer(both, table.space, {"drawers": (0, 2, 0), "height": (0.4, 0.9, 0.6)})
+    assert (
+        shorter.title == "A wider Range of height" and shorter.ends == (("height", "high"),) and [*longer] == ["height"]
+    )
+    assert of_longer(both, table.space, {"drawers": (0, 2, 0), "height": (0.4, 0.8001, 0.6)})[1] == {}
     (drawers,) = [each for each in ranges if each.title == "A wider Range of drawers"]
     assert loads(tmp_path, drawers).space["drawers"].high == 4
 

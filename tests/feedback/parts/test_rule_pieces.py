@@ -34,6 +34,15 @@ def test_rules_stand_where_such_parts_stand():
     assert RULES[best].stance == "under" and "legs" in best
 
 
+def test_parts_of_a_stance_are_not_found_elsewhere():
+    foot = cylinder((0.6, 0.05, 0.6), (0, 0.025, 0))
+    pole = cylinder((0.05, 1, 0.05), (0, 0.5, 0)).label("pole")
+    lack = Lack.of(residuals((foot | pole).mesh(), pole.mesh()), ())
+    low = retrieved(lack, list(RULES.values()), GALLERY)
+    stances = {RULES[name].stance for name, (_, piece) in low.items() if piece.high[1] < 0.1}
+    assert "anywhere" in stances and not stances & {"on", "within", "back"}
+
+
 def test_nothing_is_found_where_nothing_lacks():
     body, _ = cup(0.2)
     assert not retrieved(Lack.of(residuals(body.mesh(), body.mesh()), ()), list(RULES.values()), GALLERY)

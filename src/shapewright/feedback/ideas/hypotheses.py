@@ -5,6 +5,7 @@ A hypothesis about one misfit is cheap to judge, since no procedure runs. Those 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import product
@@ -34,6 +35,8 @@ _EVEN = 0.93  # share of the points that have a mirror image, from which on a sh
 _BREADTH = 0.1  # of spokes, of the whole
 _INSETS = (0.62, 0.71, 0.82, 0.91)  # factors; so are those of splays
 _INSET, _SPLAY, _SPLAYS = _INSETS[-2], 1.4, (0.7, 1.2, 1.7, 2.1)
+_ROUND = 2.0 / math.sqrt(math.pi)  # width of a round plan, of a square one's with the same area
+_PLANS: tuple[tuple[Kind, float], ...] = (("cylinder", _ROUND), ("box", 1.0 / _ROUND))
 _SQUARE = 0.7, 1.4  # ratios of two sides that may be a diameter
 _FLAT = 0.2  # ratio of height to width up to which a cylinder is a disc
 
@@ -78,9 +81,16 @@ def _simple(replica: Mesh, blank: Hypothesis) -> Iterator[Hypothesis]:
             if label in upright:
                 yield from (replace(blank, splayed=(label,), scale=scale) for scale in _scales(_SPLAY))
         middle = (float(bounds[:, 0].mean()), float(bounds[:, 2].mean()))
-        for kind in ("cylinder", "box"):
-            yield replace(blank, removed=(label,), pieces=(Piece(kind, bounds[0], bounds[1], middle=middle),))
+        for kind, equal in _PLANS:
+            for low, high in (bounds, _across(bounds, equal)):
+                yield replace(blank, removed=(label,), pieces=(Piece(kind, low, high, middle=middle),))
         yield from (replace(blank, removed=(label,), pieces=(piece,)) for piece in _radial(bounds, middle))
+
+
+def _across(bounds: Floats, factor: float) -> Floats:
+    """Bounds that are so many times as wide and as deep."""
+    middle = bounds.mean(axis=0)
+    return np.asarray(middle + (bounds - middle) * (factor, 1.0, factor))
 
 
 def _scales(s: float) -> Iterator[tuple[float, float]]:

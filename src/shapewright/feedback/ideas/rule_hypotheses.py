@@ -15,8 +15,10 @@ from shapewright.shapes import Mesh
 from shapewright.threads import in_threads
 
 # Where nothing else is said, chosen on first versions of vessels and buildings.
-_CHOSEN = 6  # rules that are fitted to each misfit
+_CHOSEN, _EACH = 12, 3  # rules that are fitted to each misfit, and of these in place of one part
 _ALONE = 0.5  # of what a rule brings to one misfit alone: what several lack is worth writing
+_PRICE = 0.04  # share of what a rule brings, that each of its parameters costs: of those that do as well, the plainest
+_CALLED = 1.25  # times as much a rule has to bring as one that is called what the part is called
 
 Key = tuple[tuple[str, ...], str]
 """Labels of the parts that go, and the name of the rule that comes."""
@@ -43,7 +45,7 @@ def rule_hypotheses(
     """For each study the hypotheses with one rule that the studies share, the best first; none where none helps."""
     lacks = in_threads(_lacks, studies, workers)
     gains = in_threads(lambda own: _gains(own, rules, gallery), lacks, workers)
-    chosen = _shared(gains)
+    chosen = _shared(gains, {rule.name: rule for rule in rules})
 
     def tried(row: int) -> list[Hypothesis]:
         study, blank = studies[row], Hypothesis(before=studies[row].costs([studies[row].replica])[0])
@@ -67,11 +69,24 @@ def _gains(lacks: Mapping[tuple[str, ...], Lack], rules: Sequence[Rule], gallery
     return {(removed, name): gain for removed, several in found.items() for name, gain in several.items()}
 
 
-def _shared(gains: Sequence[Mapping[Key, Gain]]) -> list[Key]:
-    """The rules that bring most over all studies."""
-    worth: dict[Key, list[float]] = {}
+def _shared(gains: Sequence[Mapping[Key, Gain]], rules: Mapping[str, Rule]) -> list[Key]:
+    """The rules that bring most over all studies; of those that bring about as much, the one with the part's name."""
+    several: dict[Key, list[float]] = {}
     for one in gains:
         for key, (gain, _) in one.items():
-            worth.setdefault(key, []).append(gain)
-    total = {key: sum(several) * (1.0 if len(several) > 1 else _ALONE) for key, several in worth.items()}
-    return sorted(total, key=lambda key: (-total[key], key))[:_CHOSEN]
+            several.setdefault(key, []).append(gain)
+    net = {key: sum(own) * (1.0 - _PRICE * len(rules[key[1]].space)) for key, own in several.items()}
+    worth = {key: net[key] * (1.0 if len(own) > 1 else _ALONE) for key, own in several.items()}
+    called = {key for key in worth if any(_is_called(rules[key[1]], label) for label in key[0])}
+    asked = {removed: max(worth[key] for key in called if key[0] == removed) for removed, _ in called}
+    chosen: list[Key] = []
+    for key in sorted(worth, key=lambda key: (-worth[key], key)):
+        suits = key in called or worth[key] >= _CALLED * asked.get(key[0], 0.0)
+        if suits and sum(key[0] == other for other, _ in chosen) < _EACH:
+            chosen.append(key)
+    return chosen[:_CHOSEN]
+
+
+def _is_called(rule: Rule, label: str) -> bool:
+    """Whether the name of a rule, or where its parts stand, has a word of the label: ``legs``, ``back``."""
+    return bool({rule.stance, *rule.noun.split()} & set(label.replace("_", " ").split()))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 
 from shapewright.feedback.ideas.proposal import Interval, Misfit, Proposal, Ranges, listed
@@ -35,7 +36,24 @@ def wider_ranges(source: str, procedure: str, space: ParameterSpace, misfits: Se
             continue
         starts: dict[int, Parameters] = {row: {} for row, its in pressed.items() if its & set(chosen)}
         worth = _HELPED * len(starts) - _PRICE * len(chosen)
-        yield Proposal("range", f"A wider Range of {listed(names)}", source, change, wide, starts, worth, ends=chosen)
+        yield Proposal("range", _title(names), source, change, wide, starts, worth, ends=chosen)
+
+
+def of_longer(proposal: Proposal, space: ParameterSpace, ranges: Ranges) -> tuple[Proposal, Ranges]:
+    """A proposal of wider Ranges, and the Ranges, without those that an author reads as before."""
+    longer = {name: ends for name, ends in ranges.items() if _reads_longer(space[name], *ends[:2])}
+    ends = tuple(end for end in proposal.ends if end[0] in longer)
+    return replace(proposal, title=_title(tuple(longer)) if longer else proposal.title, ends=ends), longer
+
+
+def _title(names: Sequence[str]) -> str:
+    return f"A wider Range of {listed(names)}"
+
+
+def _reads_longer(parameter: Parameter, low: float, high: float) -> bool:
+    """Whether a Range is longer in the digits that an author reads."""
+    assert isinstance(parameter, Scalar | Integer)
+    return (number(low), number(high)) != (number(parameter.low), number(parameter.high))
 
 
 def _can_be_longer(parameter: Parameter, side: str) -> bool:

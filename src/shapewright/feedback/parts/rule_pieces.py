@@ -22,9 +22,10 @@ _POINTS = 150  # of a piece's surface
 _LEADING = 12  # rules that are drawn with other parameters than their defaults
 _STEP = 0.15  # of a Range, by which a fit changes one parameter at a time
 _SHIFT = 0.03  # of the whole's extent, by which it moves one side of the box
-_SLACK = 0.03  # how much less a rule may bring before it is fitted than a primitive
+_SLACK, _SHARE = 0.03, 0.1  # how much less a rule may bring before it is fitted than a primitive, or this part of it
 _LEAST = 0.01  # gain of a piece worth a hypothesis
-_FLOOR, _SIDE, _BODY = 0.1, 0.2, 0.5  # of the whole's extent: where a part stands low, aside; how large a body is
+_FLOOR, _UPPER = 0.1, 0.6  # of the whole's height: where what carries the rest begins, where what stands on it ends
+_SIDE, _BODY = 0.2, 0.5  # of the whole's extent: where a part stands aside, how large a body is
 _PRIMITIVES: tuple[Kind, ...] = ("box", "cylinder", "rod x", "rod z", "frustum", "foot", "sphere")
 
 Gain: TypeAlias = tuple[float, Piece]
@@ -47,7 +48,8 @@ def retrieved(lack: Lack, rules: Sequence[Rule], gallery: Gallery) -> dict[str, 
             best[rule.name] = max(drawn, key=_value)
     leading = sorted(best.items(), key=lambda item: -item[1][0])[:_LEADING]
     found = {name: max([one, *_sampled(one[1], lack, gallery, range(1, SAMPLES))], key=_value) for name, one in leading}
-    return {name: one for name, one in found.items() if one[0] > max(_LEAST, plain - _SLACK)}
+    least = max(_LEAST, plain - max(_SLACK, _SHARE * plain))
+    return {name: one for name, one in found.items() if one[0] > least}
 
 
 def fitted(start: Gain, lack: Lack) -> Gain:
@@ -176,7 +178,7 @@ def _turns(box: Piece, bounds: Floats, rule: Rule) -> tuple[float, ...]:
         case "under":
             return ways if low[1] < _FLOOR else ()
         case "on":
-            return ways if low[1] > _FLOOR else ()
+            return ways if low[1] > _FLOOR and high[1] > _UPPER else ()
         case "body":
             return ways if (box.size / extent).min() > _BODY else ()
         case "beside" | "front":
@@ -185,6 +187,11 @@ def _turns(box: Piece, bounds: Floats, rule: Rule) -> tuple[float, ...]:
             if abs(aside[0]) > abs(aside[2]):
                 return (right,) if aside[0] > 0.0 else (left,)
             return (front,) if aside[2] > 0.0 else (back,)
+        case "within":
+            return ways if low[1] > _FLOOR or (box.size / extent).min() > _BODY else ()
+        case "around":
+            return ways if (box.size / extent)[[0, 2]].min() > _BODY else ()
         case "back":
-            return (0.0,) if box.size[0] > box.size[2] else (90.0,)
+            wide = box.size[0] > box.size[2]
+            return (0.0 if wide else 90.0,) if box.size[1] > box.size[2 if wide else 0] else ()
     return ways

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 from shapewright.building import Workers
 from shapewright.feedback.ideas.needed_ranges import narrowed
 from shapewright.feedback.ideas.proposal import Misfit, Proposal, Ranges
+from shapewright.feedback.ideas.wider_ranges import of_longer
 from shapewright.feedback.trials.attempt import LONG, outcome_of, turned_to
 from shapewright.feedback.trials.outcome import Outcome
 from shapewright.feedback.trials.random_shapes import RandomShapes, shows
 from shapewright.feedback.writing.change import FileChange
-from shapewright.feedback.writing.piece_code import number
 from shapewright.feedback.writing.source import EditError
 from shapewright.judging.judge import Judge
 from shapewright.parameters import ParameterSpace
@@ -73,7 +72,9 @@ def change_of(trials: Trials, idea: Proposal, outcome: Outcome) -> Iterator[Chan
     value = sum(done + 0.5 * max(1.0 - outcome.apart(row), 0.0) for row, done in helped.items())
     if value >= _LEAST_VALUE:
         ranges = narrowed(idea, trials.space, [outcome.parameters[row] for row in helped])
-        if idea.rule or any(_reads_longer(trials.space[name], *ranges[name][:2]) for name in ranges):
+        if idea.rule is None:
+            idea, ranges = of_longer(idea, trials.space, ranges)
+        if idea.rule or ranges:
             yield Change(idea, ranges, idea.change(ranges), outcome, tuple(helped), value)
 
 
@@ -85,11 +86,6 @@ def _helped(ways: Mapping[int, float]) -> dict[int, float]:
     much = {row: done for row, done in ways.items() if done >= _NEARER}
     some = {row: done for row, done in ways.items() if done >= _SLIGHTLY}
     return some if len(some) >= max(_SEVERAL, _MANY * len(ways)) else much
-
-
-def _reads_longer(parameter: Any, low: float, high: float) -> bool:
-    """Whether a Range is longer in the digits that an author reads."""
-    return (number(low), number(high)) != (number(parameter.low), number(parameter.high))
 
 
 def way(misfit: Misfit, starts: Outcome) -> float:
@@ -141,7 +137,7 @@ def _final(trials: Trials, change: Change) -> Iterator[Change]:
         return
     for final in change_of(trials, idea, outcome):
         if _shows(trials, final):
-            yield replace(final, ranges=change.ranges, edit=edit)
+            yield replace(final, proposal=idea, ranges=change.ranges, edit=edit)
 
 
 def _shows(trials: Trials, change: Change) -> bool:

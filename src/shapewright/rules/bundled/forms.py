@@ -58,11 +58,25 @@ def dome(size: Vector, wall: Annotated[float, Range(0.05, 0.3)] = 0.12) -> Solid
     return (ball - hollow) & cylinder((2 * width, height, 2 * depth))
 
 
+@rule("anywhere")
+def block(size: Vector) -> Solid:
+    """A plain block: a plate, a post or a panel."""
+    return box(size)
+
+
+@rule("anywhere")
+def round_block(size: Vector) -> Solid:
+    """A plain round block: a disc or a column."""
+    return cylinder(size)
+
+
 @rule("around")
-def tube(size: Vector, wall: Annotated[float, Range(0.03, 0.3)] = 0.1) -> Solid:
-    """A hollow cylinder, open at both ends; wall: of the width."""
-    width, height, depth = size
-    return cylinder(size) - cylinder(((1 - 2 * wall) * width, 2 * height, (1 - 2 * wall) * depth))
+def tube(
+    size: Vector, wall: Annotated[float, Range(0.03, 0.3)] = 0.1, top: Annotated[float, Range(0.2, 1.0)] = 1.0
+) -> Solid:
+    """A hollow cylinder or cone, open at both ends; wall: of the width; top: how wide it is there, of the bottom."""
+    inside = max(top / 2 - wall, 0.01)
+    return revolve([(0.5 - wall, 0), (0.5, 0), (inside + wall, 1), (inside, 1)]).fit(size)
 
 
 @rule("around")
@@ -249,7 +263,7 @@ def turned_shell(
     return revolve([(0, 0), *outer, *inner, (0, wall)]).fit(size)
 
 
-@rule("around")
+@rule("body")
 def capped_body(
     size: Vector, cap: Annotated[float, Range(0.1, 0.6)] = 0.3, body: Annotated[float, Range(0.6, 1.0)] = 0.85
 ) -> Solid:

@@ -72,6 +72,20 @@ def leaning_panel(size: Vector, thickness: Annotated[float, Range(0.02, 0.6)] = 
     return hull(lower, box((width, 0.01 * height, thick), (0, 0.495 * height, (thick - depth) / 2)))
 
 
+@rule("back", turns=2)
+def bowed_panel(
+    size: Vector,
+    thickness: Annotated[float, Range(0.05, 0.6)] = 0.2,
+    bow: Annotated[float, Range(0.0, 0.6)] = 0.3,
+) -> Solid:
+    """A panel that leans back and is bowed to the back in the middle; thickness and bow: of the depth."""
+    width, height, depth = size
+    thick, rise = thickness * depth, bow * depth
+    behind = [(x / 8 * width, rise * ((x / 4) ** 2 - 1)) for x in range(-4, 5)]
+    plan = [*behind, *((x, z + thick) for x, z in reversed(behind))]
+    return extrude(plan, height).path((0, 0, 0), (0, 0, min(thick + rise - depth, 0))).fit(size)
+
+
 @rule("on", turns=4)
 def raised_lid(size: Vector, thickness: Annotated[float, Range(0.02, 0.6)] = 0.15) -> Solid:
     """A flat lid that is hinged at the back and stands open; thickness: of the height."""
