@@ -190,6 +190,16 @@ def test_what_a_spec_says_of_a_draw_or_of_an_argument_goes_before(seat):
     assert made(height=0.9, block=0.1).extent[1] == pytest.approx(6.0)
 
 
+def test_ranges_of_another_file_go_before_what_is_drawn(seat, tmp_path):
+    recipe = tmp_path / "recipe.yml"
+    recipe.write_text("base:\n  width: 1.3\ndataset_generation:\n  width:\n    min: 1.2\n    max: 1.4\n")
+    width = seat(f'ranges = "{recipe}"\n').space["width"]
+    assert (width.low, width.high, width.default) == (1.2, 1.4, 1.3)
+    recipe.write_text(recipe.read_text().replace("width", "span"))
+    with pytest.raises(ProcedureError, match=r"span: .*it draws width, depth, legs"):
+        seat(f'ranges = "{recipe}"\n')
+
+
 @pytest.mark.parametrize(
     ("lines", "name", "says"),
     [

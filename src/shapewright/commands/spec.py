@@ -6,7 +6,7 @@ import difflib
 import re
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -98,7 +98,8 @@ def read_spec(path: Path, draws: Mapping[str, Draw] | None = None) -> Spec:
     drawn = _is_drawn(said)
     unread = drawn and not draws
     if draws:
-        recipe = Recipe({name: draw.table for name, draw in draws.items()})
+        drawn_tables = {name: draw.table for name, draw in draws.items()}
+        recipe = replace(recipe or Recipe({}), tables={**drawn_tables, **(recipe.tables if recipe else {})})
     entries = _entries(file, recipe, may_be_empty=unread)
     words = _words(file) if key == "run" else ()
     spec = Spec(
