@@ -18,9 +18,20 @@ import msgspec
 
 from shapewright.judging.target import Measures
 from shapewright.settings import Preset, described
-from shapewright.studio.wire import answers, changes, collection, detail, judgement, problems, requests, values, work
+from shapewright.studio.wire import (
+    answers,
+    changes,
+    collection,
+    detail,
+    judgement,
+    problems,
+    requests,
+    revisions,
+    values,
+    work,
+)
 
-MODULES = (values, problems, judgement, collection, work, detail, answers, changes, requests)
+MODULES = (values, problems, judgement, collection, work, revisions, detail, answers, changes, requests)
 _PLAIN: Mapping[Any, str] = {
     str: "string",
     int: "number",

@@ -11,6 +11,7 @@ import subprocess
 import time
 import zipfile
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -241,15 +242,21 @@ def test_another_cut_gives_other_grades_at_once_live_ones_too(fitted: Studio) ->
     assert fitted.get("/api/state")["collection"]["tiles"] == tiles
 
 
+def mark(running: Studio, a: str, b: str, same: bool | None, status: int = 200) -> Any:
+    return running.send("PATCH", "/api/marks", {"a": a, "b": b, "same": same}, status)
+
+
 def test_marks_move_the_cut_as_on_the_command_line(fitted: Studio) -> None:
     tiles = fitted.get("/api/state")["collection"]["tiles"]
-    fitted.send("PUT", "/api/marks", [{"a": tile["slug"], "b": tile["slug"], "same": False} for tile in tiles])
+    for tile in tiles:
+        mark(fitted, tile["slug"], tile["slug"], False)
     state = fitted.get("/api/state")
     found = judged_by_marks(fitted.folder / "runs" / state["collection"]["run"], "fidelity")
     now = {name: state["settings"][name] for name in found}
     assert now == found == {name: state["collection"][name] for name in found}
     assert state["marking"]["learned"]["count"] == len(tiles) and state["marking"]["asked"] == []
-    fitted.send("PUT", "/api/marks", [])
+    for tile in tiles:
+        mark(fitted, tile["slug"], tile["slug"], None)
     state = fitted.get("/api/state")
     assert state["marking"]["learned"] is None and state["collection"]["replicated"] == Settings.replicated
 
@@ -304,11 +311,16 @@ def test_going_back_shows_the_run_without_another_fit(fitted: Studio) -> None:
     current = fitted.get("/api/source")
     fitted.send("POST", f"/api/runs/{first}/restore", {"digest": "0" * 16}, 409)
     answer = fitted.send("POST", f"/api/runs/{first}/restore", {"digest": current["digest"]})
-    assert answer["undo"] == current["text"]
     state = fitted.wait_for(lambda s: s["collection"]["run"] == first)
     assert (fitted.folder / "procedure.py").read_text() == PROCEDURE
     assert {tile["stage"] for tile in state["collection"]["tiles"]} == {"trained"}
-    assert any(path.read_text() == current["text"] for path in (fitted.folder / ".shapewright").glob("procedure-*.py"))
+    newest = fitted.get("/api/revisions")[0]
+    assert (newest["number"], newest["writer"], newest["of"]) == (answer["revision"], "run", first)
+    undone = fitted.send("POST", f"/api/revisions/{newest['number']}/undo", {"digest": answer["digest"]})
+    assert fitted.get("/api/source") == current
+    fitted.send("POST", f"/api/revisions/{undone['revision']}/undo", {"digest": "0" * 16}, 409)
+    fitted.send("POST", f"/api/revisions/{undone['revision']}/undo", {"digest": undone["digest"]})
+    assert (fitted.folder / "procedure.py").read_text() == PROCEDURE
 
 
 def test_two_runs_side_by_side(fitted: Studio) -> None:
@@ -467,24 +479,50 @@ def test_references_that_come_and_go(mended: Studio) -> None:
     mended.wait_for(lambda s: not any(t["slug"] == "late" for t in s["collection"]["tiles"]))
 
 
-def test_marks_are_kept(mended: Studio) -> None:
+def test_marks_are_kept_one_by_one(mended: Studio) -> None:
     pair = {"a": "ball", "b": "table-0", "same": False}
-    mended.send("PUT", "/api/marks", [pair])
+    mended.send("PATCH", "/api/marks", pair)
     assert mended.get("/api/state")["marking"]["marks"] == [pair]
     path = mended.folder / "marks.json"
     assert json.loads(path.read_text()) == [{"a": "ball", "b": "table 0", "same": False}]
     noted = {"a": "gone", "b": "gone", "same": True, "run": "000", "measures": {"distance": 0.1}}
     path.write_text(json.dumps([noted, {"a": "ball", "b": "table 0", "same": False, "why": "legs"}]))
-    mended.send("PUT", "/api/marks", [pair, {"a": "ball", "b": "ball", "same": True}])
+    # Another page does not know of the marks of this one, nor of what the command line wrote.
+    mark(mended, "ball", "ball", True)
     first, second, third = json.loads(path.read_text())
     assert first == noted and second["why"] == "legs" and third["same"]
     run = mended.get("/api/state")["collection"]["run"]
     if run:
         recorded = {e["name"]: e for e in mended.get_run(run)["references"]}
         assert third["run"] == run and third["measures"]["distance"] == recorded["ball"]["distance"]
-    mended.send("PUT", "/api/marks", [])
+    mark(mended, "table-0", "ball", True)
+    assert [(e["a"], e["b"], e["same"]) for e in json.loads(path.read_text())][1:] == [
+        ("ball", "ball", True), ("table 0", "ball", True),
+    ]  # fmt: skip
+    mark(mended, "ball", "table-0", None)
+    mark(mended, "ball", "ball", None)
     assert json.loads(path.read_text()) == [noted]
-    mended.send("PUT", "/api/marks", [{"a": "ball", "b": "nobody", "same": True}], 422)
+    mark(mended, "ball", "nobody", True, 422)
+
+
+def test_marks_of_many_pages_at_once_are_all_kept(mended: Studio) -> None:
+    slugs = [tile["slug"] for tile in mended.get("/api/state")["collection"]["tiles"]]
+    pairs = [(a, b) for a in slugs for b in slugs if a <= b]
+    with ThreadPoolExecutor(8) as pages:
+        list(pages.map(lambda pair: mark(mended, *pair, True), pairs))
+    marks = mended.get("/api/state")["marking"]["marks"]
+    assert {(one["a"], one["b"]) for one in marks} == set(pairs)
+    for pair in pairs:
+        mark(mended, *pair, None)
+
+
+def test_settings_last_over_a_restart_and_the_command_line_goes_before_them(tmp_path: Path) -> None:
+    project = make_project(tmp_path / "p")
+    with studio(project, "--refine", "off") as first:
+        first.send("PATCH", "/api/settings", {"epochs": 7, "samples": 90, "auto_fit": False, "replicated": 0.7})
+        chosen = first.get("/api/state")["settings"]
+    with studio(project, "--samples", "77") as second:
+        assert second.get("/api/state")["settings"] == {**chosen, "samples": 77, "refine": Settings.refine}
 
 
 def test_settings_out_of_range_are_refused(mended: Studio) -> None:
@@ -574,7 +612,13 @@ def test_a_suggestion_joins_what_was_written_since(fitted: Studio) -> None:
     (fitted.folder / "procedure.py").write_text("# my own line\n" + PROCEDURE)
     written = fitted.send("POST", "/api/suggestions/0/apply", {"to": "procedure"})
     text = (fitted.folder / "procedure.py").read_text()
-    assert text.startswith("# my own line") and f"{9}" in text and written["undo"].startswith("# my own line")
+    assert text.startswith("# my own line") and f"{9}" in text
+    (newest, *_) = fitted.get("/api/revisions")
+    assert (newest["number"], newest["writer"], newest["of"]) == (written["revision"], "suggestion", "Widen")
+    removed = [
+        line["text"] for line in fitted.get(f"/api/revisions/{newest['number']}")["diff"] if line["kind"] == "removed"
+    ]
+    assert len(removed) == newest["removed"] == 1 and parameter["name"] in removed[0]
     refused = fitted.send("POST", "/api/suggestions/0/apply", {"to": "procedure"}, 409)
     assert "you have edited" in refused["error"] and (fitted.folder / "procedure.py").read_text() == text
 

@@ -265,6 +265,113 @@ def test_the_editor_in_the_page(visit: Visit, fitted: dict[str, Any]) -> None:
     visit.studio.wait_for(rested, 240)
 
 
+def test_what_is_typed_survives_a_reload_and_escape_runs_no_command(visit: Visit, fitted: dict[str, Any]) -> None:
+    page, path = visit.page, visit.studio.folder / "procedure.py"
+    good = path.read_text()
+    visit.go("loop")
+    page.wait_for_selector(".cm-line")
+    page.click(".cm-content")
+    page.keyboard.press("Control+End")
+    page.keyboard.type("\n# half a thought")
+    page.keyboard.press("Escape")
+    page.keyboard.type("fd1?")
+    assert page.locator(".loop .editor").count() == 1 and page.locator("dialog").count() == 0
+    assert visit.studio.get("/api/state")["jobs"]["fit"]["state"] != "running"
+    visit.go("collection")
+    page.wait_for_selector("nav .unsaved")
+    page.reload()
+    page.wait_for_selector(".notice:has-text('did not save')")
+    page.click(".notice >> text=Open")
+    page.wait_for_selector(".cm-line:has-text('# half a thought')")
+    page.wait_for_selector(".editor header:has-text('not saved')")
+    assert path.read_text() == good
+    page.click("text=Discard")
+    page.wait_for_selector(".cm-line:has-text('# half a thought')", state="detached")
+    page.click(".notice:has-text('given up') >> text=Undo")
+    page.wait_for_selector(".cm-line:has-text('# half a thought')")
+    page.click("text=Discard")
+    page.reload()
+    page.wait_for_selector(".cm-line")
+    assert page.locator(".cm-line:has-text('# half a thought')").count() == page.locator("nav .unsaved").count() == 0
+
+
+def test_a_deleted_file_is_written_again_from_the_editor(visit: Visit, fitted: dict[str, Any]) -> None:
+    page, path = visit.page, visit.studio.folder / "procedure.py"
+    good = path.read_text()
+    visit.go("loop")
+    page.wait_for_selector(".cm-line")
+    visit.studio.send("PATCH", "/api/settings", {"auto_fit": False})
+    path.unlink()
+    page.wait_for_selector(".editor .conflict:has-text('not there any more')")
+    page.reload()
+    page.wait_for_selector(".editor .conflict:has-text('not there any more')")
+    page.wait_for_selector(".cm-line:has-text('def table')")
+    page.click("text=Save it as a new file")
+    page.wait_for_selector(".notice:has-text('procedure-1.py')")
+    assert (visit.studio.folder / "procedure-1.py").read_text() == good
+    (visit.studio.folder / "procedure-1.py").unlink()
+    page.click("text=Write it again")
+    page.wait_for_selector(".editor .conflict", state="detached")
+    assert path.read_text() == good
+    visit.studio.wait_for(rested, 240)
+    visit.studio.send("PATCH", "/api/settings", {"auto_fit": True})
+
+
+def test_changes_of_the_procedure_are_listed_and_undone_after_a_restart(
+    visit: Visit, fitted: dict[str, Any], browser: Any
+) -> None:
+    path = visit.studio.folder / "procedure.py"
+    visit.studio.send("PATCH", "/api/settings", {"auto_fit": False})
+    good = path.read_text()
+    digest = visit.studio.get("/api/source")["digest"]
+    visit.studio.send("PUT", "/api/source", {"text": good + "\n# mine\n", "digest": digest})
+    visit.studio.wait_for(lambda s: ready(s) and s["procedure"]["digest"] != digest)
+    visit.studio.save(good + "\n# mine\n# theirs\n")
+    visit.studio.wait_for(lambda s: visit.studio.get("/api/revisions")[0]["writer"] == "another program")
+    with studio(visit.studio.folder, *QUICK, "--no-auto-fit") as again:
+        later = Visit.of(again, browser)
+        later.go("history")
+        newest = later.page.locator(".revisions li").first
+        newest.wait_for()
+        assert "saved by another program" in newest.inner_text()
+        newest.locator(".what").click()
+        later.page.wait_for_selector(".revisions .diff tr.added:has-text('# theirs')")
+        later.page.locator(".revisions li").nth(1).locator("text=Undo to here").click()
+        later.page.wait_for_selector(".notice:has-text('as it was before')")
+        assert path.read_text() == good
+        later.page.click(".notice >> text=Undo")
+        again.wait_for(lambda _: "# theirs" in path.read_text())
+        later.page.wait_for_selector(".revisions li:nth-child(2):has-text('undid change')")
+        later.end()
+    visit.studio.save(good)
+    visit.studio.wait_for(rested, 240)
+    visit.studio.send("PATCH", "/api/settings", {"auto_fit": True})
+
+
+def test_a_fit_is_begun_by_a_key_with_a_modifier_and_single_keys_can_be_switched_off(
+    visit: Visit, fitted: dict[str, Any]
+) -> None:
+    page = visit.page
+    page.wait_for_selector(".tile")
+    page.keyboard.press("f")
+    page.wait_for_timeout(200)
+    assert visit.studio.get("/api/state")["jobs"]["fit"]["state"] != "running"
+    page.keyboard.press("Control+Enter")
+    visit.studio.wait_for(lambda s: s["jobs"]["fit"]["state"] == "running")
+    page.click(".button.fit:has-text('Cancel')")
+    visit.studio.wait_for(rested)
+    page.keyboard.press("?")
+    page.locator("dialog.help [role=switch]").uncheck()
+    page.keyboard.press("Escape")
+    page.keyboard.press("2")
+    page.keyboard.press("?")
+    page.reload()
+    page.wait_for_selector(".tile")
+    page.keyboard.press("2")
+    page.wait_for_timeout(200)
+    assert page.locator(".loop").count() == page.locator("dialog").count() == 0
+
+
 def test_a_fit_is_cancelled(visit: Visit, fitted: dict[str, Any]) -> None:
     page = visit.page
     visit.studio.send("PATCH", "/api/settings", {"samples": 3000, "epochs": 200})

@@ -46,9 +46,8 @@ ProcedureArgument = Annotated[
     ),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object as the last line of standard output.")]
-PresetOption = Annotated[
-    Preset, typer.Option("--preset", help="fast is made for laptops; paper is the paper's, made for a GPU.")
-]
+PRESET = typer.Option("--preset", help="fast is made for laptops; paper is the paper's, made for a GPU.")
+PresetOption = Annotated[Preset, PRESET]
 Seed = Annotated[int, option("seed")]
 Workers = Annotated[int | None, option("workers")]
 Up = Annotated[

@@ -8,8 +8,8 @@ from typing import Annotated, Any
 
 import typer
 
-from shapewright.cli.options import Front, Keep, PresetOption, Up, with_settings
-from shapewright.settings import Settings
+from shapewright.cli.options import PRESET, Front, Keep, Up, with_settings
+from shapewright.settings import Preset
 from shapewright.studio.project.preferences import SHAPE_SECONDS, Preferences
 
 
@@ -33,8 +33,8 @@ def studio(
     up: Up = "y",
     front: Front = None,
     keep: Keep = None,
-    preset: PresetOption = "fast",
-    auto_fit: Annotated[bool, typer.Option(help="Fit after every save; the page can change that.")] = True,
+    preset: Annotated[Preset | None, PRESET] = None,
+    auto_fit: Annotated[bool | None, typer.Option(help="Fit after every save; the page can change that.")] = None,
     host: Annotated[str, typer.Option(help="Address to listen on; others than this machine's own need the next.")] = (
         "127.0.0.1"
     ),
@@ -46,9 +46,13 @@ def studio(
     from shapewright.studio.project.workspace import Project
     from shapewright.studio.server.launch import serve
 
+    project = Project.of(folder, procedure, references, up, front, tuple(keep or ()))
+    named = {"auto_fit": auto_fit, "preset": preset, **chosen}
+    usual = {"shape_seconds": SHAPE_SECONDS}
+    given = {name: value for name, value in named.items() if value not in (None, usual.get(name))}
     serve(
-        Project.of(folder, procedure, references, up, front, tuple(keep or ())),
-        Preferences(auto_fit=auto_fit, preset=preset, settings=Settings.preset(preset, **chosen)),
+        project,
+        Preferences.at_start(project.kept_settings(), given),
         host,
         port,
         allow_remote,

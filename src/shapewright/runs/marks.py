@@ -90,25 +90,21 @@ def pairs(project: Path) -> list[tuple[str, str, bool]]:
     return [(a, b, same) for (a, b), same in judged.items()]
 
 
-def replace_pairs(project: Path, wanted: Sequence[tuple[str, str, bool]], known: set[str], run: Path | None) -> None:
-    """Make the marks of known references these; a judgement that stays keeps all that is noted of it.
+def mark_pair(project: Path, pair: tuple[str, str], same: bool | None, run: Path | None) -> None:
+    """Mark a pair, in either order, in place of earlier marks; None takes these away. All other marks stay.
 
-    run: that the new ones are judged by, which notes what it measured.
+    run: that the pair is judged by, which notes what it measured. Raises RunError.
     """
-    path = project / MARKS
-    old = {(a, b): same for a, b, same in pairs(project)}
-    new = {(a, b): same for a, b, same in wanted}
-    kept = [
-        entry
-        for entry in _read(path)
-        if not {entry["a"], entry["b"]} <= known or new.get((entry["a"], entry["b"])) == old[entry["a"], entry["b"]]
-    ]
-    found = {entry["name"]: entry for entry in read_record(run)["references"]} if run else {}
-    for (a, b), same in new.items():
-        if old.get((a, b)) != same:
-            noted = {"run": run.name, "measures": _measures(found[a])} if run and a == b and a in found else {}
-            kept.append({"a": a, "b": b, "same": same, **noted})
-    _write(path, kept)
+    a, b = pair
+    entries = _read(project / MARKS)
+    earlier = [entry for entry in entries if {entry["a"], entry["b"]} == {a, b}]
+    entries = [entry for entry in entries if entry not in earlier]
+    if same is not None:
+        found = {entry["name"]: entry for entry in read_record(run)["references"]} if run else {}
+        noted = {"run": run.name, "measures": _measures(found[a])} if run and a == b and a in found else {}
+        others = earlier[-1] if earlier else {}
+        entries.append({**others, "a": a, "b": b, "same": same, **noted})
+    _write(project / MARKS, entries)
 
 
 def read_marks(run: Path, measured: bool = True) -> list[Mark]:

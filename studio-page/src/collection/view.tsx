@@ -162,8 +162,8 @@ function NoReferences() {
   return (
     <Empty title="No references yet">
       <p>
-        Put meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF, DAE, FBX, USD, STEP, IGES) into <code>{project.value.references}</code> in{" "}
-        <code>{project.value.folder}</code>. They appear here by themselves.
+        Put meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF, DAE, FBX, USD, STEP, IGES) into{" "}
+        <code>{project.value.references}</code> in <code>{project.value.folder}</code>. They appear here by themselves.
       </p>
     </Empty>
   );

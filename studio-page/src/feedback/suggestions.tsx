@@ -1,6 +1,6 @@
 /** What to write next: changes of the procedure that were tried and helped. */
 
-import { copy } from "../state/actions";
+import { copy, written } from "../state/actions";
 import { complain, tell } from "../state/notices";
 import { go, inspect } from "../state/route";
 import { procedure, tiles } from "../state/studio";
@@ -25,11 +25,8 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
   };
   const toProcedure = async () => {
     try {
-      const { digest, undo } = await requests.applyToProcedure(index, procedure.value.digest);
-      tell("The procedure has the suggestion in it.", {
-        label: "Undo",
-        run: () => void requests.saveSource(undo, digest).catch(complain),
-      });
+      const done = await requests.applyToProcedure(index, procedure.value.digest);
+      written(`The procedure has it: ${title}.`, done);
       go("loop");
     } catch (error) {
       complain(error);

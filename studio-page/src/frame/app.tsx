@@ -1,10 +1,12 @@
 /** The page: header, what is wrong, and one view. */
 
 import { useSignalEffect } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 import { CollectionView } from "../collection/view";
 import { FeedbackView } from "../feedback/view";
 import { HistoryView } from "../history/view";
 import { Inspector } from "../inspector/view";
+import { startEditing } from "../loop/editing";
 import { LoopView } from "../loop/view";
 import { fit } from "../state/actions";
 import { useKeys } from "../state/keys";
@@ -28,7 +30,8 @@ export function App() {
       run: (event) => go(VIEWS[Number(event.key) - 1]!),
     },
     {
-      keys: ["f"],
+      keys: ["Enter"],
+      modified: true,
       does: "fit",
       run: () => {
         if (!fitting.value && procedure.value.state !== "broken") fit();
@@ -39,6 +42,7 @@ export function App() {
   useSignalEffect(() => {
     document.title = title();
   });
+  useEffect(startEditing, []);
   if (!ready.value) {
     return (
       <Empty title={connected.value ? "Opening the project…" : "No connection to the studio's server"}>

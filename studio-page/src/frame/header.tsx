@@ -1,6 +1,8 @@
 /** The bar at the top: where one is, how the loop stands, and what can be done from anywhere. */
 
+import { dirty } from "../loop/editing";
 import { cancel, fit } from "../state/actions";
+import { MODIFIER } from "../state/keys";
 import { go, route, VIEWS } from "../state/route";
 import { bench, collection, connected, fitting, jobs, lost, procedure, project } from "../state/studio";
 import { switchTheme, theme } from "../state/theme";
@@ -34,6 +36,7 @@ export function Header() {
             onClick={() => go(view)}
           >
             {LABELS[view]}
+            {view === "loop" && dirty.value && <i class="unsaved" title="There is text that is not saved" />}
           </a>
         ))}
       </nav>
@@ -107,7 +110,11 @@ function FitButton() {
       kind="primary"
       class="fit"
       disabled={procedure.value.state === "broken" || collection.value.count === 0}
-      title={procedure.value.state === "broken" ? "The procedure is broken" : "Find parameters for every reference (f)"}
+      title={
+        procedure.value.state === "broken"
+          ? "The procedure is broken"
+          : `Find parameters for every reference (${MODIFIER}Enter)`
+      }
       onClick={() => fit()}
     >
       Fit

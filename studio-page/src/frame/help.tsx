@@ -1,8 +1,8 @@
 /** The keys that work where one is. */
 
 import { signal } from "@preact/signals";
-import { keyMaps } from "../state/keys";
-import { Dialog } from "../ui/controls";
+import { keyMaps, MODIFIER, singleKeys, switchSingleKeys } from "../state/keys";
+import { Dialog, Toggle } from "../ui/controls";
 
 export const helping = signal(false);
 
@@ -24,9 +24,10 @@ export function Help() {
         <section key={place}>
           <h3>{place}</h3>
           <dl>
-            {keys.map(({ keys: names, does }) => (
+            {keys.map(({ keys: names, modified, does }) => (
               <div key={does}>
                 <dt>
+                  {modified && <kbd>{MODIFIER.trim()}</kbd>}
                   {names.map((name) => (
                     <kbd key={name}>{NAMES[name] ?? name}</kbd>
                   ))}
@@ -37,6 +38,7 @@ export function Help() {
           </dl>
         </section>
       ))}
+      <Toggle label="Single keys act" title="Keys of one letter" on={singleKeys.value} onChange={switchSingleKeys} />
     </Dialog>
   );
 }

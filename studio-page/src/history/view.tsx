@@ -1,7 +1,8 @@
 /** History: how many references each iteration replicated, and any two of them side by side. */
 
 import { useComputed, useSignal, useSignalEffect } from "@preact/signals";
-import { complain, tell } from "../state/notices";
+import { written } from "../state/actions";
+import { complain } from "../state/notices";
 import { procedure, project, runs } from "../state/studio";
 import { Button, Empty, Select } from "../ui/controls";
 import { duration } from "../ui/numbers";
@@ -10,8 +11,26 @@ import { requests } from "../wire/requests";
 import { Chart, said } from "./chart";
 import { Diff } from "./diff";
 import { Moves } from "./moves";
+import { Revisions } from "./revisions";
 
 export function HistoryView() {
+  return (
+    <div class="history">
+      {runs.value.length ? (
+        <Iterations />
+      ) : (
+        <Empty title="No iteration yet">
+          <p>
+            Every fit is kept here, with its procedure: how many references it replicates, and what it gained and lost.
+          </p>
+        </Empty>
+      )}
+      <Revisions />
+    </div>
+  );
+}
+
+function Iterations() {
   const picked = useSignal<{ before: string | null; after: string | null }>({ before: null, after: null });
   const pair = useComputed(() => chosen(runs.value, picked.value));
   const comparison = useSignal<Comparison | null>(null);
@@ -26,22 +45,13 @@ export function HistoryView() {
       })
       .catch(complain);
   });
-  if (runs.value.length === 0) {
-    return (
-      <Empty title="No iteration yet">
-        <p>
-          Every fit is kept here, with its procedure: how many references it replicates, and what it gained and lost.
-        </p>
-      </Empty>
-    );
-  }
   const { before, after } = pair.value!;
   const pick = (run: string, asBefore: boolean) => {
     picked.value = asBefore ? { before: run, after } : { before: picked.value.before, after: run };
   };
   const options = runs.value.map(({ run, counts }) => ({ value: run, label: `${run} (${counts.replicated})` }));
   return (
-    <div class="history">
+    <>
       <section class="overview">
         <Chart runs={runs.value} before={before} after={after} onPick={pick} />
         <div class="choice">
@@ -64,7 +74,7 @@ export function HistoryView() {
       ) : (
         <p class="soft">Comparing…</p>
       )}
-    </div>
+    </>
   );
 }
 
@@ -81,11 +91,10 @@ function chosen(all: Run[], picked: { before: string | null; after: string | nul
 function RunFacts({ run }: { run: Run }) {
   const restore = async () => {
     try {
-      const { digest, undo } = await requests.restore(run.run, procedure.value.digest);
-      tell(`The procedure is that of run ${run.run} again.`, {
-        label: "Undo",
-        run: () => void requests.saveSource(undo, digest).catch(complain),
-      });
+      written(
+        `The procedure is that of run ${run.run} again.`,
+        await requests.restore(run.run, procedure.value.digest),
+      );
     } catch (error) {
       complain(error);
     }

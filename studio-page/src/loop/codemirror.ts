@@ -92,8 +92,9 @@ export function createEditor(
         EditorView.contentAttributes.of({ "aria-label": name }),
         keymap.of([
           { key: "Mod-s", preventDefault: true, run: () => (onSave(), true) },
-          { key: "Escape", run: (open) => (open.contentDOM.blur(), true) },
           ...searchKeymap,
+          // Out of the text, so that Tab leads on; the focus stays in the editor, which keeps its keys.
+          { key: "Escape", run: () => (parent.closest<HTMLElement>("[data-keeps-keys]")?.focus(), true) },
           ...defaultKeymap,
           ...historyKeymap,
           indentWithTab,

@@ -1,11 +1,12 @@
 /** The procedure's text in the page: what is on disk, what the author has typed, and how the two meet. */
 
-import { computed, effect, signal } from "@preact/signals";
+import { batch, computed, effect, signal } from "@preact/signals";
 import { complain, tell } from "../state/notices";
 import { go } from "../state/route";
 import { procedure, ready } from "../state/studio";
 import type { Source } from "../wire/messages";
 import { RequestError, requests } from "../wire/requests";
+import { dropDraft, keepDraft, keptDraft } from "./draft";
 
 /** The text that the edit began from. */
 export const base = signal<Source | null>(null);
@@ -13,6 +14,8 @@ export const text = signal("");
 export const dirty = computed(() => base.value !== null && text.value !== base.value.text);
 /** What another program has written meanwhile, while there are edits here. */
 export const theirs = signal<Source | null>(null);
+/** Why the file cannot be read, as where it was deleted; the text here is then all that there is. */
+export const gone = signal("");
 /** Where the editor should put its cursor next: a line, counted from 1. */
 export const goal = signal<number | null>(null);
 
@@ -23,15 +26,29 @@ export function startEditing(): void {
   if (started) return;
   started = true;
   effect(() => {
-    const { digest } = procedure.value;
-    if (ready.value && digest !== base.peek()?.digest) void read();
+    const { digest, state } = procedure.value;
+    if (ready.value && (digest !== base.peek()?.digest || state === "broken" || gone.peek())) void read();
+  });
+  let kept = false;
+  effect(() => {
+    if (base.value && (dirty.value || gone.value)) {
+      if (!keepDraft({ base: base.value, text: text.value }) && !kept)
+        complain("The browser keeps no unsaved text: save before you close this page.");
+      kept = true;
+    } else if (kept) {
+      // Only who kept it drops it: another tab may have typed it.
+      kept = false;
+      dropDraft();
+    }
   });
 }
 
 async function read(): Promise<void> {
   try {
     const source = await requests.source();
-    if (source.digest === base.value?.digest) return;
+    gone.value = source.unreadable ?? "";
+    if (!base.value) restore(source);
+    if (source.unreadable !== null || source.digest === base.value?.digest) return;
     if (dirty.value && source.text !== text.value) theirs.value = source;
     else take(source);
   } catch (error) {
@@ -39,11 +56,46 @@ async function read(): Promise<void> {
   }
 }
 
-/** Go on from this text. */
-export function take(source: Source): void {
-  base.value = source;
-  text.value = source.text;
-  theirs.value = null;
+/** Go on from what was typed before this page was loaded, where there is something. */
+function restore(source: Source): void {
+  const draft = keptDraft();
+  if (draft && (source.unreadable !== null || draft.text !== source.text)) {
+    take(draft.base, draft.text);
+    tell("What you typed and did not save is in the editor.", { label: "Open", run: () => go("loop") });
+  } else if (source.unreadable === null) take(source);
+}
+
+/** Go on from this text. typed: what was made of it already. */
+export function take(source: Source, typed = source.text): void {
+  batch(() => {
+    base.value = source;
+    text.value = typed;
+    theirs.value = null;
+  });
+}
+
+/** Give up what was typed for another text; it can be had back. */
+export function giveUp(source: Source): void {
+  const [was, typed] = [base.value ?? source, text.value];
+  take(source);
+  tell("What you typed is given up.", {
+    label: "Undo",
+    run: () => {
+      take(was, typed);
+      if (source.digest !== was.digest) theirs.value = source;
+    },
+  });
+}
+
+/** Put what was typed into a new file beside the procedure. */
+export async function saveAsNew(): Promise<void> {
+  try {
+    const { path } = await requests.saveCopy(text.value);
+    tell(`Written to ${path}.`);
+    if (theirs.value) take(theirs.value);
+  } catch (error) {
+    complain(error);
+  }
 }
 
 export async function save(over = false): Promise<void> {
@@ -51,12 +103,13 @@ export async function save(over = false): Promise<void> {
   const saved = text.value;
   try {
     const { digest } = await requests.saveSource(saved, over ? null : base.value.digest);
-    base.value = { ...base.value, text: saved, digest };
-    theirs.value = null;
+    take({ ...base.value, text: saved, digest }, text.value);
+    gone.value = "";
   } catch (error) {
     if (error instanceof RequestError && error.status === 409 && typeof error.body.text === "string") {
-      theirs.value = { path: base.value.path, text: error.body.text, digest: String(error.body.digest) };
-    } else complain(error);
+      theirs.value = { ...base.value, text: error.body.text, digest: String(error.body.digest) };
+    } else if (error instanceof RequestError && error.status === 409) gone.value = error.message;
+    else complain(error);
   }
 }
 

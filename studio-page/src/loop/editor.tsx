@@ -2,13 +2,12 @@
 
 import { effect, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { MODIFIER } from "../state/keys";
 import { complain } from "../state/notices";
 import { problems, procedure, project } from "../state/studio";
 import { Button } from "../ui/controls";
 import type { Editor } from "./codemirror";
-import { base, dirty, goal, save, startEditing, take, text, theirs } from "./editing";
-
-const MAC = navigator.platform.startsWith("Mac");
+import { base, dirty, giveUp, goal, gone, save, saveAsNew, startEditing, text, theirs } from "./editing";
 
 export function EditorPane() {
   const place = useRef<HTMLDivElement>(null);
@@ -35,17 +34,17 @@ export function EditorPane() {
   }, []);
   const state = dirty.value ? "not saved" : procedure.value.state === "broken" ? "broken" : "";
   return (
-    <section class="editor">
+    <section class="editor" tabIndex={-1} data-keeps-keys>
       <header>
         <h2 class="mono">{base.value?.path ?? project.value.procedure}</h2>
         <span class={state === "broken" ? "bad" : "warn"}>{state}</span>
-        <Button disabled={!dirty.value} onClick={() => base.value && take(base.value)}>
+        <Button disabled={!dirty.value} onClick={() => base.value && giveUp(base.value)}>
           Discard
         </Button>
         <Button
           kind={dirty.value ? "primary" : "plain"}
           disabled={!dirty.value}
-          title={`Save, and run (${MAC ? "⌘" : "Ctrl "}S)`}
+          title={`Save, and run (${MODIFIER}S)`}
           onClick={() => void save()}
         >
           Save
@@ -54,8 +53,16 @@ export function EditorPane() {
       {theirs.value && (
         <div class="conflict" role="alert">
           <p>The file has changed on disk since you began to edit it here.</p>
-          <Button onClick={() => theirs.value && take(theirs.value)}>Take the file's text</Button>
+          <Button onClick={() => theirs.value && giveUp(theirs.value)}>Take the file's text</Button>
           <Button onClick={() => void save(true)}>Overwrite with mine</Button>
+          <Button onClick={() => void saveAsNew()}>Save mine as a new file</Button>
+        </div>
+      )}
+      {gone.value && (
+        <div class="conflict" role="alert">
+          <p>{gone.value}. The text here is kept.</p>
+          <Button onClick={() => void save(true)}>Write it again</Button>
+          <Button onClick={() => void saveAsNew()}>Save it as a new file</Button>
         </div>
       )}
       <div class="code" ref={place}>

@@ -1,9 +1,9 @@
 /** What the author can ask for from anywhere on the page. */
 
 import { requests } from "../wire/requests";
-import type { ChosenSettings, JobKind, Mark, Slug } from "../wire/messages";
+import type { ChosenSettings, JobKind, Replaced, Slug } from "../wire/messages";
 import { complain, tell } from "./notices";
-import { marking, marks, settings } from "./studio";
+import { settings } from "./studio";
 
 export function fit(fresh = false): void {
   requests.fit(fresh).catch(complain);
@@ -29,15 +29,13 @@ export async function change(part: Partial<ChosenSettings>): Promise<void> {
 
 /** Mark a pair as the same or as different; null takes the mark away. */
 export function mark(a: Slug, b: Slug, same: boolean | null): void {
-  const others = marks.value.filter((one) => !((one.a === a && one.b === b) || (one.a === b && one.b === a)));
-  const next: Mark[] = same === null ? others : [...others, { a, b, same }];
-  requests
-    .marks(next)
-    .then(() => {
-      const asked = marking.value.asked.filter((slug) => same === null || slug !== a);
-      marking.value = { ...marking.value, marks: next, asked };
-    })
-    .catch(complain);
+  requests.mark({ a, b, same }).catch(complain);
+}
+
+/** Say that the procedure was written, with the way back beside it. */
+export function written(what: string, { digest, revision }: Replaced): void {
+  if (revision === null) return tell("The procedure has this text already.");
+  tell(what, { label: "Undo", run: () => void requests.undo(revision, digest).catch(complain) });
 }
 
 export async function copy(text: string, what: string): Promise<void> {

@@ -6,6 +6,8 @@ import { useEffect, useRef } from "preact/hooks";
 export interface Key {
   /** As KeyboardEvent.key gives them; the first is the one that the help names. */
   keys: string[];
+  /** Whether Ctrl (on a Mac ⌘) goes with them: for what costs time. Such a key acts in fields of text as well. */
+  modified?: boolean;
   does: string;
   run: (event: KeyboardEvent) => void;
 }
@@ -17,6 +19,15 @@ export interface KeyMap {
 
 /** The maps in force, the innermost last. */
 export const keyMaps = signal<KeyMap[]>([]);
+
+const KEPT = "shapewright.keys";
+/** Whether keys of a single letter, digit or sign act. */
+export const singleKeys = signal(localStorage.getItem(KEPT) !== "off");
+
+export function switchSingleKeys(on: boolean): void {
+  singleKeys.value = on;
+  localStorage.setItem(KEPT, on ? "on" : "off");
+}
 
 /** Keep a map of keys in force while the component is shown. */
 export function useKeys(place: string, keys: Key[]): void {
@@ -35,12 +46,17 @@ export function useKeys(place: string, keys: Key[]): void {
   }, [place, keys.length]);
 }
 
+const MAC = navigator.platform.startsWith("Mac");
+/** How the modifier is written before a key. */
+export const MODIFIER = MAC ? "⌘" : "Ctrl ";
+
 const ARROWS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"];
 
 /** Whether a key belongs to the element that has the focus. */
 function taken({ key, target }: KeyboardEvent): boolean {
   if (!(target instanceof Element)) return false;
-  if (target.closest("[contenteditable=true], textarea, dialog[open]")) return true;
+  // The editor keeps its keys when Escape has led out of its text: somebody who types on means the text.
+  if (target.closest("[contenteditable=true], textarea, dialog[open], [data-keeps-keys]")) return true;
   if (target.closest("select")) return key !== "Escape";
   const input = target.closest("input");
   if (input?.type === "range" || target.closest("[role=radiogroup]")) return ARROWS.includes(key);
@@ -49,9 +65,11 @@ function taken({ key, target }: KeyboardEvent): boolean {
 }
 
 window.addEventListener("keydown", (event) => {
-  if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || taken(event)) return;
+  const modified = event.ctrlKey || event.metaKey;
+  if (event.defaultPrevented || event.altKey || (!modified && taken(event))) return;
+  if (!modified && event.key.length === 1 && !singleKeys.value) return;
   for (const map of [...keyMaps.value].reverse()) {
-    const key = map.keys.find(({ keys }) => keys.includes(event.key));
+    const key = map.keys.find((one) => Boolean(one.modified) === modified && one.keys.includes(event.key));
     if (!key) continue;
     event.preventDefault();
     key.run(event);

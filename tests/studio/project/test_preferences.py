@@ -48,3 +48,25 @@ def test_another_preset_keeps_what_no_preset_says():
     assert (before.settings.judge, paper.settings.judge) == ("fidelity", "paper")
     assert paper.changed({"preset": "fast"}).settings.judge == "fidelity"
     assert before.changed({"preset": "fast", "fresh": True}).settings == before.settings
+
+
+def test_what_was_chosen_in_the_page_is_taken_up_and_the_command_line_goes_before_it():
+    kept = Preferences().changed({"epochs": 7, "replicated": 0.2, "close": 0.1}).changed({"auto_fit": False}).chosen
+    assert kept == {"epochs": 7, "replicated": 0.2, "close": 0.1, "auto_fit": False}
+    opened = Preferences.at_start(kept, {"epochs": 9, "workers": 2})
+    assert (opened.settings.epochs, opened.settings.workers, opened.auto_fit) == (9, 2, False)
+    assert (opened.settings.replicated, opened.settings.close) == (0.2, 0.1)
+    assert opened.settings.shape_seconds == SHAPE_SECONDS
+    assert Preferences.at_start({}, {"auto_fit": False}).auto_fit is False
+
+
+def test_what_cannot_be_any_more_is_passed_over():
+    opened = Preferences.at_start({"epochs": 7, "colour": "red", "samples": "many"}, {})
+    assert opened.settings.epochs == 7 and opened.settings.samples == Settings.samples
+
+
+def test_a_preset_of_the_command_line_brings_its_own_settings():
+    kept = Preferences().changed({"preset": "paper", "epochs": 7, "seed": 4}).chosen
+    assert Preferences.at_start(kept, {}).settings.epochs == 7 and Preferences.at_start(kept, {}).preset == "paper"
+    fast = Preferences.at_start(kept, {"preset": "fast"})
+    assert (fast.preset, fast.settings.epochs, fast.settings.seed) == ("fast", Settings.epochs, 4)

@@ -12,14 +12,34 @@ def project(tmp_path):
     return Project.of(tmp_path)
 
 
-def kept(project):
-    return [path.read_bytes() for path in (project.folder / SCRATCH).glob("procedure-*.py")]
-
-
 def test_a_text_is_replaced_with_its_line_endings_and_kept(project):
-    project.write_source("one\nthree\n", None)
+    number = project.write_source("one\nthree\n", None)
     assert project.procedure.read_bytes() == b"one\r\nthree\r\n"
-    assert kept(project) == [b"one\ntwo\n"]
+    assert project.revisions.texts(number) == ("one\ntwo\n", "one\nthree\n")
+    assert project.write_source("one\nthree\n", None) is None and len(project.revisions.all()) == 1
+
+
+def test_a_file_that_was_deleted_is_made_anew_where_nothing_else_is_expected(project):
+    digest = project.read_source()[1]
+    project.procedure.unlink()
+    with pytest.raises(ProjectError, match="not there any more"):
+        project.write_source("mine\n", digest)
+    project.write_source("mine\n", None)
+    assert project.procedure.read_text() == "mine\n"
+
+
+def test_nothing_is_written_through_a_link_that_leads_out(project, tmp_path_factory):
+    outside = tmp_path_factory.mktemp("outside")
+    project.procedure.unlink()
+    project.procedure.symlink_to(outside / "not-there.py")
+    with pytest.raises(ProjectError, match="leads out of the project"):
+        project.write_source("mine\n", None)
+    (project.folder / SCRATCH).mkdir()
+    for name in ("revisions", "exports"):
+        (project.folder / SCRATCH / name).symlink_to(outside)
+        with pytest.raises(ProjectError, match="a link; remove it"):
+            project.scratch(name)
+    assert not list(outside.iterdir())
 
 
 def test_a_link_is_followed(tmp_path):
@@ -68,8 +88,6 @@ def test_a_change_of_what_it_does_not_use_is_none(scad):
 
 
 def test_copies_of_it_are_the_same_kind_of_file(scad):
-    scad.write_source("cube(2);", None)
-    assert [path.suffix for path in (scad.folder / SCRATCH).glob("procedure-*")] == [".scad"]
     assert scad.write_copy("cube(3);").name == "box-1.scad"
 
 

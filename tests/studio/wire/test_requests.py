@@ -6,13 +6,13 @@ from typing import Any
 
 import pytest
 
-from shapewright.studio.wire.judgement import Mark
 from shapewright.studio.wire.requests import (
     ApplyOrder,
     CancelOrder,
     Evaluate,
     ExportOrder,
     FitOrder,
+    MarkOrder,
     SourceEdit,
     Wrong,
     check_known,
@@ -42,7 +42,7 @@ def test_what_is_left_out_has_its_default() -> None:
         ('{"to": "moon"}', ApplyOrder, "to is copy or procedure"),
         ('{"text": 1}', SourceEdit, "text is a string"),
         ("[]", dict[str, Any], "send a JSON object"),
-        ('[{"a": "x", "b": "y"}]', list[Mark], "a mark has a, b"),
+        ('{"a": "x", "b": "y"}', MarkOrder, "a mark has a, b"),
         ("{", FitOrder, "no JSON"),
         (b"\xff", FitOrder, "no JSON"),
     ],

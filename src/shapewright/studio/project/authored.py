@@ -24,6 +24,7 @@ class Authored:
     saved: bool = False  # whether that followed a save
     helper: bool = False  # whether the save was of another file than the procedure's own
     _fingerprint: str = ""
+    _text: str | None = None
 
     def changed(self) -> bool:
         """Whether a Python file of the project is another than when it was read last."""
@@ -31,11 +32,12 @@ class Authored:
 
     def read(self, saved: bool) -> None:
         """Look at the file anew. Raises ProjectError when it cannot be read; the state is then ``broken``."""
-        before = self.digest
+        before, text = self.digest, self._text
         self._fingerprint = self.project.fingerprint()
         self.load += 1
         self.state = "broken"
-        _, self.digest = self.project.read_source()
+        self._text, self.digest = self.project.read_source()
+        self.project.seen(text, self._text)
         self.state, self.saved, self.helper = "loading", saved, saved and self.digest == before
 
     def accept(self, name: str, parameters: list[Parameter], defaults: Values) -> None:

@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import re
-import time
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
+from typing import Any
 
 from shapewright.procedures import BINARY, is_foreign, source_digest, text_of
 from shapewright.references.standing import AUTO
 from shapewright.runs.folder import runs
 from shapewright.storage import remove_leftovers, write_file
 from shapewright.studio.project.listing import Origin
+from shapewright.studio.project.revisions import Revisions
+from shapewright.studio.wire.revisions import Writer
 
 SCRATCH = ".shapewright"
-"""Folder of a project for what may be thrown away: replaced versions of the procedure, exports."""
+"""Folder of a project for what the studio keeps: every version of the procedure that was replaced, exports."""
 _NAMES = (re.compile(rb"[<\"']([^<>\"'\n\0]+)[>\"']"), re.compile(rb"[^\s<>\"'(){}\[\],;=\0]+\.\w+"))
 """What may be the path of a file in a text: what stands in quotes or between < and >, or a word with a suffix."""
+_REVISIONS, _SETTINGS = "revisions", "settings.json"
 _LOOKED_AT = 1024  # bytes that tell a text from a binary file
 _START = "shapewright new NAME makes one, and shapewright demo one with forty tables"
 
@@ -111,8 +116,7 @@ class Project:
 
     def read_source(self) -> tuple[str, str]:
         """Text and digest of the procedure. Raises ProjectError when it cannot be read, or leads out of the project."""
-        if not self.procedure.resolve().is_relative_to(self.folder):
-            raise ProjectError(f"{self.procedure.name} has become a link that leads out of the project")
+        self._check_inside()
         try:
             text = text_of(self.procedure)
         except FileNotFoundError as error:
@@ -121,23 +125,44 @@ class Project:
             raise ProjectError(f"{self.procedure.name} cannot be read as UTF-8 text: {error}") from error
         return text, source_digest(text)
 
-    def write_source(self, text: str, expected: str | None) -> str:
-        """Replace the procedure's text, whole or not at all, and return its digest.
+    def _check_inside(self) -> None:
+        if not self.procedure.resolve().is_relative_to(self.folder):
+            raise ProjectError(f"{self.procedure.name} has become a link that leads out of the project")
 
-        expected: digest of the text that the edit began from; None to write whatever is there. What is replaced is kept
-        in the project's scratch folder. Raises Conflict, ProjectError.
+    def write_source(self, text: str, expected: str | None, writer: Writer = "editor", of: str = "") -> int | None:
+        """Replace the procedure's text, whole or not at all, and return the number of this revision.
+
+        A file that is not there any more is made anew. expected: digest of the text that the edit began from; None to
+        write whatever is there. writer, of: see ``Revision``. None is returned where the text is this one already.
+        Raises Conflict, ProjectError.
         """
-        before, there = self.read_source()
-        if expected is not None and there != expected:
-            raise Conflict(before, there)
+        self._check_inside()
+        there = self.procedure.exists()
+        before, digest = self.read_source() if there or expected is not None else ("", "")
+        if expected is not None and digest != expected:
+            raise Conflict(before, digest)
         if self.procedure.suffix.lower() in BINARY:
             raise ProjectError(f"{self.procedure.name} is no text; change it in the program that made it")
-        if text != before:
-            suffix = self.procedure.suffix
-            _write(self.scratch() / f"procedure-{time.strftime('%Y%m%d-%H%M%S')}-{there}{suffix}", before)
-            ending = "\r\n" if b"\r\n" in self.procedure.read_bytes() else "\n"
-            _write(self.procedure, text.replace("\r\n", "\n").replace("\n", ending))
-        return source_digest(text)
+        if there and text == before:
+            return None
+        ending = "\r\n" if there and b"\r\n" in self.procedure.read_bytes() else "\n"
+        try:
+            with self.revisions.of_write(before, text, writer, of) as number:
+                _write(self.procedure, text.replace("\r\n", "\n").replace("\n", ending))
+        except OSError as error:
+            raise ProjectError(f"{self.folder / SCRATCH}: cannot be written: {error.strerror or error}") from error
+        return number
+
+    @property
+    def revisions(self) -> Revisions:
+        """All writes of the procedure."""
+        return Revisions(self.folder / SCRATCH / _REVISIONS, lambda: self.scratch(_REVISIONS))
+
+    def seen(self, last: str | None, now: str) -> None:
+        """Put into the undo list what another program has written. last: the text that was there before, if known."""
+        if self.procedure.suffix.lower() not in BINARY:
+            with suppress(OSError, ProjectError):  # the list is a help; what the author saved holds without it
+                self.revisions.catch_up(last, now)
 
     def write_copy(self, text: str) -> Path:
         """Put a text beside the procedure under a new name, and return its path."""
@@ -148,16 +173,30 @@ class Project:
         _write(home / name, text)
         return home / name
 
-    def scratch(self) -> Path:
-        """The folder for what may be thrown away; git passes over it."""
+    def scratch(self, inside: str = "") -> Path:
+        """The folder for what the studio keeps, or one inside it; git passes over it. Raises ProjectError for links."""
         folder = self.folder / SCRATCH
-        if folder.is_symlink():
-            raise ProjectError(f"{folder}: a link; remove it")
-        folder.mkdir(exist_ok=True)
+        for part in (folder, folder / inside):
+            if part.is_symlink():
+                raise ProjectError(f"{part}: a link; remove it")
+            part.mkdir(exist_ok=True)
         if not (folder / ".gitignore").exists():
             write_file(folder / ".gitignore", "*\n")
         remove_leftovers(folder)
-        return folder
+        return folder / inside
+
+    def kept_settings(self) -> dict[str, Any]:
+        """What ``keep_settings`` kept; nothing where that cannot be read."""
+        try:
+            kept: Any = json.loads((self.folder / SCRATCH / _SETTINGS).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+        return kept if isinstance(kept, dict) else {}
+
+    def keep_settings(self, chosen: Mapping[str, Any]) -> None:
+        """Keep what was chosen in the page. Raises ProjectError."""
+        if chosen != self.kept_settings():
+            _write(self.scratch() / _SETTINGS, json.dumps(dict(chosen), indent=1) + "\n")
 
     def fingerprint(self) -> str:
         """Changes whenever the procedure does, or a file that it uses.

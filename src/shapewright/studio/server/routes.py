@@ -12,15 +12,16 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response
 from starlette.routing import Route
 
+from shapewright.procedures import source_digest
 from shapewright.studio.bench.client import BenchError
-from shapewright.studio.project.workspace import Missing, Project
+from shapewright.studio.project.workspace import Missing, Project, ProjectError
 from shapewright.studio.session import queries
 from shapewright.studio.session.history import comparison, source_of
 from shapewright.studio.session.session import Session
 from shapewright.studio.wire import requests
 from shapewright.studio.wire.changes import ChosenSettings
 from shapewright.studio.wire.detail import About
-from shapewright.studio.wire.judgement import Mark
+from shapewright.studio.wire.revisions import RevisionDetail, Writer
 from shapewright.studio.wire.values import Slug, encode
 from shapewright.studio.wire.work import Comparison
 
@@ -29,6 +30,7 @@ KEEP = {"cache-control": "private, max-age=31536000, immutable"}
 _NO_STORE = {"cache-control": "no-store"}
 _ASIDE = {"content-security-policy": "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox"}
 _DOWNLOADS = {"report.html": "text/html", "parameters.csv": "text/csv", "parameters.json": "application/json"}
+_NO_REVISION = Missing("there is no such change of the procedure any more")
 _PICTURES = {".png": "image/png", ".svg": "image/svg+xml", ".glb": "model/gltf-binary"}
 
 
@@ -57,14 +59,18 @@ def routes(session: Session) -> list[Route]:
         api("references/{slug}/shape", partial(_shape, session)),
         api("references/{slug}/render", partial(_render, session)),
         api("source", lambda _: _source(project)),
-        api("source", partial(_write_source, project), "PUT", requests.SourceEdit),
+        api("source", lambda _, edit: _replaced(project, edit.text, edit.digest, "editor"), "PUT", requests.SourceEdit),
+        api("source/copy", lambda _, order: _copied(project, order.text), "POST", requests.CopyOrder),
+        api("revisions", lambda _: project.revisions.all()),
+        api("revisions/{number:int}", partial(_revision, project)),
+        api("revisions/{number:int}/undo", partial(_undo, project), "POST", requests.RestoreOrder),
         api("fit", lambda _, order: session.fit(order.fresh), "POST", requests.FitOrder),
         api("explain", lambda _: jobs.explain(), "POST"),
         api("export", lambda _, order: jobs.export(order), "POST", requests.ExportOrder),
         api("exports/{name}.zip", partial(_exported, project)),
         api("cancel", lambda _, order: jobs.cancel(order.kind), "POST", requests.CancelOrder),
         api("settings", partial(_settings, session), "PATCH", dict[str, Any]),
-        api("marks", partial(_marks, session), "PUT", list[Mark]),
+        api("marks", partial(_mark, session), "PATCH", requests.MarkOrder),
         api("runs/{run}", lambda request: queries.run_detail(session, request.path_params["run"])),
         api("runs/{run}/restore", partial(_restore, project), "POST", requests.RestoreOrder),
         api("runs/{run}/files/{path:path}", partial(_run_file, project)),
@@ -124,16 +130,31 @@ def _slug(session: Session, request: Request) -> Slug:
 
 
 def _source(project: Project) -> requests.Source:
-    text, digest = project.read_source()
+    try:
+        text, digest = project.read_source()
+    except ProjectError as error:
+        return requests.Source(path=project.procedure.name, text="", digest="", unreadable=str(error))
     return requests.Source(path=project.procedure.name, text=text, digest=digest)
 
 
-def _write_source(project: Project, request: Request, edit: requests.SourceEdit) -> requests.Written:
-    return requests.Written(digest=project.write_source(edit.text, edit.digest))
+def _revision(project: Project, request: Request) -> RevisionDetail:
+    try:
+        return project.revisions.detail(request.path_params["number"])
+    except KeyError as error:
+        raise _NO_REVISION from error
+
+
+def _undo(project: Project, request: Request, order: requests.RestoreOrder) -> requests.Replaced:
+    number = request.path_params["number"]
+    try:
+        before, _ = project.revisions.texts(number)
+    except KeyError as error:
+        raise _NO_REVISION from error
+    return _replaced(project, before, order.digest, "undo", str(number))
 
 
 def _exported(project: Project, request: Request) -> Response:
-    folder = project.scratch() / "exports"
+    folder = project.scratch("exports")
     file = folder / f"{request.path_params['name']}.zip"
     if file.resolve().parent != folder.resolve() or not file.is_file():
         raise Missing("there is no such export")
@@ -142,14 +163,14 @@ def _exported(project: Project, request: Request) -> Response:
 
 def _settings(session: Session, request: Request, given: dict[str, Any]) -> ChosenSettings:
     try:
-        return session.change_preferences(given)
+        return session.choices.change(given)
     except ValueError as error:
         raise requests.Wrong(str(error)) from error
 
 
-def _marks(session: Session, request: Request, marks: list[Mark]) -> dict[str, Any]:
-    requests.check_known([slug for mark in marks for slug in (mark.a, mark.b)], session.display.board.references)
-    session.set_marks(marks)
+def _mark(session: Session, request: Request, order: requests.MarkOrder) -> dict[str, Any]:
+    requests.check_known([order.a, order.b], session.display.board.references)
+    session.choices.mark(order)
     return {}
 
 
@@ -160,15 +181,20 @@ def _tell(session: Session, request: Request, order: requests.TellOrder) -> dict
 
 
 def _restore(project: Project, request: Request, order: requests.RestoreOrder) -> requests.Replaced:
-    text = source_of(project.run(request.path_params["run"]))
+    run = project.run(request.path_params["run"])
+    text = source_of(run)
     if not text:
         raise Missing("this run kept no procedure")
-    return _replaced(project, text, order.digest)
+    return _replaced(project, text, order.digest, "run", run.name)
 
 
-def _replaced(project: Project, text: str, expected: str | None) -> requests.Replaced:
-    before, _ = project.read_source()
-    return requests.Replaced(digest=project.write_source(text, expected), undo=before)
+def _replaced(project: Project, text: str, expected: str | None, writer: Writer, of: str = "") -> requests.Replaced:
+    revision = project.write_source(text, expected, writer, of)
+    return requests.Replaced(digest=source_digest(text), revision=revision)
+
+
+def _copied(project: Project, text: str) -> requests.Copied:
+    return requests.Copied(path=project.write_copy(text).name, text=text)
 
 
 def _run_file(project: Project, request: Request) -> Response:
@@ -194,7 +220,7 @@ def _compare(session: Session, request: Request) -> Comparison:
 
 
 def _apply(session: Session, request: Request, order: requests.ApplyOrder) -> requests.Replaced | requests.Copied:
-    text = queries.applied(session, request.path_params["index"])
+    text, title = queries.applied(session, request.path_params["index"])
     if order.to == "procedure":
-        return _replaced(session.project, text, order.digest)
-    return requests.Copied(path=session.project.write_copy(text).name, text=text)
+        return _replaced(session.project, text, order.digest, "suggestion", title)
+    return _copied(session.project, text)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
+from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -162,6 +164,7 @@ def lay_out(
         for slug, source in listed.sources.items()
     }
     skipped = {printable(path): printable(reason) for path, reason in listed.skipped.items()}
+    known = [printable(source.place) for source in listed.sources.values()]
     if run is None or record is None:
         return Board(references, standard=standard, skipped=skipped)
     slugs = {state.name: slug for slug, state in references.items()}
@@ -170,8 +173,30 @@ def lay_out(
             slug = slugs[entry["name"]]
             references[slug] = _filled(references[slug], entry, pictures, run)
     groups = tuple(_groups(record["groups"], slugs))
-    board = Board(references, groups, run.name, standard, skipped | record["collection"]["skipped"])
+    of_run = _still_there(record["collection"]["skipped"], (*known, *skipped))
+    board = Board(references, groups, run.name, standard, {**of_run, **skipped})
     return board.judged_by(standard) if chosen else board
+
+
+def _still_there(skipped: Mapping[str, str], paths: Iterable[str]) -> dict[str, str]:
+    """What a run could not read, by the path that the file has now.
+
+    skipped: by the path that it had for the run: relative to another folder perhaps, or on another machine. paths: of
+    all files that there are.
+    """
+    by_name: dict[str, list[str]] = {}
+    for path in paths:
+        by_name.setdefault(Path(path).name, []).append(path)
+
+    def shared(path: str, old: str) -> int:
+        pairs = zip(reversed(Path(path).parts), reversed(Path(old).parts), strict=False)
+        return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
+
+    return {
+        max(by_name[Path(old).name], key=partial(shared, old=old)): reason
+        for old, reason in skipped.items()
+        if Path(old).name in by_name
+    }
 
 
 def counted(grades: Iterable[tuple[Grade, bool]]) -> Counts:

@@ -10,6 +10,7 @@ from typing import Any
 
 from shapewright.runs.folder import EXPLANATION, RunError, read_json, read_record
 from shapewright.settings import Settings
+from shapewright.storage import printable
 from shapewright.studio.bench.messages import Drawn, Measured, SweepEnded, Swept, Unreadable
 from shapewright.studio.project.listing import Listing, kept_picture, listing
 from shapewright.studio.project.picture_store import Pictures
@@ -164,7 +165,7 @@ class Display:
             case Drawn():
                 self._change(message.slug, reference=self.pictures.add(payload))
             case Unreadable() if message.slug in self.board.references:
-                path = str(self.listed.sources[message.slug].path)
+                path = printable(self.listed.sources[message.slug].place)
                 self._unreadable[message.slug] = path, message.reason
                 self._put_up(self.board.without(message.slug, path, message.reason))
             case SweepEnded():

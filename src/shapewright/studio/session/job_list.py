@@ -78,7 +78,7 @@ class JobList:
         if run is None and set(order.what) != {"samples"}:
             raise Refused("there is no run to export yet; fit first, or export samples alone")
         place = {"run": str(run) if run else None, "procedure": str(self._project.procedure)}
-        folder = self._project.scratch() / "exports"
+        folder = self._project.scratch("exports")
         self._start("export", {**asdict(order), **place, "folder": str(folder)})
 
     def cancel(self, kind: JobKind) -> None:

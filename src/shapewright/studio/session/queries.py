@@ -78,8 +78,8 @@ def explanation(session: Session) -> Explanation:
     return cast(Explanation, passed_on)
 
 
-def applied(session: Session, index: int) -> str:
-    """The procedure's text as it is now, with a suggestion for the run that is shown.
+def applied(session: Session, index: int) -> tuple[str, str]:
+    """The procedure's text as it is now with a suggestion for the run that is shown; and the suggestion's title.
 
     Raises Missing for one that is not there, Refused where it does not fit what the author has written since.
     """
@@ -92,9 +92,9 @@ def applied(session: Session, index: int) -> str:
         raise Missing("this suggestion has no procedure to apply")
     before, (now, _) = source_of(run), session.project.read_source()
     if source_digest(before) == source_digest(now):
-        return str(given["source"])
+        return str(given["source"]), str(given["title"])
     try:
-        return FileChange.from_record(given.get("change") or {}).merged(before, now)
+        return FileChange.from_record(given.get("change") or {}).merged(before, now), str(given["title"])
     except EditError as error:
         raise Refused(
             f"{error}. Write it by hand from the snippet, or fit and explain the file as it is now."

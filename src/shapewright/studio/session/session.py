@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from shapewright.references.errors import CollectionError
-from shapewright.runs.folder import EXPLANATION, RunError
-from shapewright.runs.marks import replace_pairs
+from shapewright.runs.folder import EXPLANATION
 from shapewright.runs.versions import version_of
-from shapewright.settings import Settings
 from shapewright.storage import cache_folder
 from shapewright.studio.bench import messages
 from shapewright.studio.bench.client import BenchError
@@ -23,17 +19,16 @@ from shapewright.studio.project.telling import tell
 from shapewright.studio.project.watch import watch
 from shapewright.studio.project.workspace import Project, ProjectError
 from shapewright.studio.session.bench_link import BenchLink
+from shapewright.studio.session.choices import Choices
 from shapewright.studio.session.display import Display
 from shapewright.studio.session.history import summaries
 from shapewright.studio.session.job_list import JobList, Refused
-from shapewright.studio.session.marking import cuts, learned, marking
 from shapewright.studio.session.pages import Page, Pages
 from shapewright.studio.session.problem_list import ProblemList
-from shapewright.studio.session.standard import CUTS, Standard
+from shapewright.studio.session.standard import Standard
 from shapewright.studio.wire import changes
 from shapewright.studio.wire.collection import Procedure
 from shapewright.studio.wire.detail import Told
-from shapewright.studio.wire.judgement import Learned, Mark, Marking
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Slug
 from shapewright.studio.wire.work import Job, Run
@@ -46,22 +41,20 @@ class Session:
     """One studio: a project, a bench, jobs, and the pages that look at them. All methods run in one event loop."""
 
     def __init__(self, project: Project, preferences: Preferences) -> None:
-        self.project, self.preferences = project, preferences
+        self.project = project
         self.pages = Pages()
         self.problems = ProblemList(self.pages)
         self.authored = Authored(project)
         self.display = Display(project, self.pages, cache_folder(), partial(self.problems.report, "shapes"))
         self.bench = BenchLink(project, self.authored, self.display, self.pages, self._heard, self._bench_changed)
+        self.choices = Choices(project, preferences, self.display, self.pages, self.problems, self._measure_anew)
         self.jobs = JobList(project, self.display, self.bench, self.pages, self._job_ended)
 
     async def run(self) -> None:
         """Open the project, then serve until cancelled; ends all processes at the end."""
         self._list_references()
         self.display.show(self.display.newest(), self.standard)
-        settings = self.preferences.settings
-        usual = (settings.replicated, settings.close) == (Settings.replicated, Settings.close)
-        if self._learned() and usual:
-            self._follow_marks()
+        self.choices.open()
         self._read_source(saved=False)
         try:
             async with asyncio.TaskGroup() as group:
@@ -95,8 +88,8 @@ class Session:
             collection=self.display.board.collection(),
             jobs=self.jobs.jobs(),
             runs=self.runs(),
-            settings=self.preferences.message(),
-            marking=self.marking(),
+            settings=self.choices.preferences.message(),
+            marking=self.choices.marking(),
             explanation=self.explained,
             problems=self.problems.all,
         )
@@ -109,21 +102,6 @@ class Session:
     def explained(self) -> bool:
         """Whether the run that is shown has an explanation."""
         return self.display.run is not None and (self.display.run / EXPLANATION).is_file()
-
-    def marking(self) -> Marking:
-        """The pairs that were marked, of references that are there; what they say, and what to mark next."""
-        shown = self.display.board.standard.settings
-        return marking(self.project.folder, self.display.run, self.display.slugs(), self.preferences.settings, shown)
-
-    def _learned(self) -> Learned | None:
-        """What the marks say. A file of marks that cannot be read is a problem of the project."""
-        try:
-            found = learned(self.project.folder, self.display.run, self.preferences.settings.judge)
-        except RunError as error:
-            self.problems.report("project", [Problem("project", str(error))])
-            return None
-        self.problems.report("project", [])
-        return found
 
     def _procedure(self) -> Procedure:
         runs = self.runs()
@@ -146,43 +124,6 @@ class Session:
         self.pages.close(page)
         self.bench.forget(page.number)
 
-    def change_preferences(self, given: dict[str, Any]) -> changes.ChosenSettings:
-        """Raises ValueError for an entry that cannot be."""
-        before, self.preferences = self.preferences, self.preferences.changed(given)
-        settings = self.preferences.settings
-        if settings.seed != before.settings.seed:
-            self.bench.list_references(settings)
-        self._settings_changed(before.settings)
-        return self.preferences.message()
-
-    def _settings_changed(self, before: Settings) -> None:
-        """Tell the pages; with another judge or other cuts the collection has other grades at once."""
-        settings = self.preferences.settings
-        self.pages.publish(changes.SettingsChanged(settings=self.preferences.message()))
-        if any(getattr(settings, name) != getattr(before, name) for name in CUTS):
-            self.display.judge_by(settings)
-            self.pages.publish(changes.MarksChanged(marking=self.marking()))
-
-    def _follow_marks(self) -> None:
-        """Move the cut to where the marks ask for it."""
-        before = self.preferences.settings
-        cut = cuts(self._learned(), before.judge)
-        self.preferences = replace(self.preferences, settings=replace(before, **cut))
-        self._settings_changed(before)
-
-    def set_marks(self, marks: list[Mark]) -> None:
-        """Replace the marks of the references that are there, all of whose slugs are known; the cut follows them.
-
-        Raises RunError.
-        """
-        names = {slug: state.name for slug, state in self.display.board.references.items()}
-        wanted = [(names[mark.a], names[mark.b], mark.same) for mark in marks]
-        said = self._learned()
-        replace_pairs(self.project.folder, wanted, set(names.values()), self.display.run)
-        self.pages.publish(changes.MarksChanged(marking=self.marking()))
-        if said != self._learned():
-            self._follow_marks()
-
     def tell(self, slugs: list[Slug], told: Told) -> None:
         """What the author says of references; all slugs are known. They stand so at once. Raises ProjectError."""
         tell(self.project, [self.display.listed.sources[slug] for slug in slugs], told)
@@ -192,7 +133,7 @@ class Session:
         """Start a fit; one that runs is ended first. Raises Refused."""
         if self.authored.state == "broken":
             raise Refused("the procedure cannot be used; mend it first")
-        await self.jobs.fit(self.preferences.settings, fresh or self.preferences.fresh)
+        await self.jobs.fit(self.choices.settings, fresh or self.choices.preferences.fresh)
 
     # What happens on disk
 
@@ -206,12 +147,15 @@ class Session:
         """Files came, went or changed among the references."""
         self._list_references()
         self._show(self.display.run or self.display.newest())
-        self.bench.list_references(self.preferences.settings)
+        self._measure_anew()
+
+    def _measure_anew(self) -> None:
+        self.bench.list_references(self.choices.settings)
 
     def _show(self, run: Path | None) -> None:
         """Show a run, and ask for its marks."""
         self.display.show(run, self.standard)
-        self.pages.publish(changes.MarksChanged(marking=self.marking()))
+        self.choices.publish_marks()
 
     def _list_references(self) -> None:
         try:
@@ -227,7 +171,7 @@ class Session:
             self._break(Problem("project", str(error), self.project.procedure.name))
             return
         self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
-        self.bench.load(self.preferences.settings)
+        self.bench.load(self.choices.settings)
 
     def _break(self, problem: Problem) -> None:
         self.authored.reject()
@@ -240,8 +184,8 @@ class Session:
     def _bench_changed(self) -> None:
         self.pages.publish(self.state())
         if self.bench.process.state == "ready":
-            self.bench.list_references(self.preferences.settings)
-            self.bench.load(self.preferences.settings)
+            self._measure_anew()
+            self.bench.load(self.choices.settings)
 
     def _heard(self, message: messages.News, payload: bytes) -> None:
         match message:
@@ -267,7 +211,7 @@ class Session:
             self.bench.sweep("carried", self.display.parameters)
         self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
         self.bench.evaluate_waiting()
-        if saved and not fitted and self.preferences.auto_fit and self.display.listed.sources:
+        if saved and not fitted and self.choices.preferences.auto_fit and self.display.listed.sources:
             self.jobs.spawn(self._fit_soon(self.authored.load))
 
     async def _fit_soon(self, load: int) -> None:
@@ -294,4 +238,4 @@ class Session:
     @property
     def standard(self) -> Standard:
         """What the next fit judges by."""
-        return Standard.of(self.preferences.settings, self.display.listed.dimension)
+        return Standard.of(self.choices.settings, self.display.listed.dimension)

@@ -10,7 +10,6 @@ from msgspec import Meta, Struct
 
 from shapewright.shapes.files import Format
 from shapewright.studio.wire.detail import Told
-from shapewright.studio.wire.judgement import Mark
 from shapewright.studio.wire.values import Slug, Values
 from shapewright.studio.wire.work import JobKind
 
@@ -55,6 +54,12 @@ class SourceEdit(Order, frozen=True):
     digest: str | None = None  # of the text that the edit began from; null to write over any
 
 
+class CopyOrder(Order, frozen=True):
+    """A text to be put into a new file beside the procedure."""
+
+    text: str
+
+
 class FitOrder(Order, frozen=True):
     """Fit."""
 
@@ -77,6 +82,14 @@ class TellOrder(Order, frozen=True):
     told: Told
 
 
+class MarkOrder(Order, frozen=True):
+    """Mark a pair of references, or where ``a`` is ``b`` a reference and its own replica."""
+
+    a: Slug
+    b: Slug
+    same: bool | None  # null takes the mark away
+
+
 class CancelOrder(Order, frozen=True):
     """End a job."""
 
@@ -84,7 +97,7 @@ class CancelOrder(Order, frozen=True):
 
 
 class RestoreOrder(Order, frozen=True):
-    """Put a run's procedure back."""
+    """Put a run's procedure back, or the text before a write."""
 
     digest: str | None = None  # as in SourceEdit
 
@@ -102,19 +115,14 @@ class Source(Struct, frozen=True, kw_only=True):
     path: str
     text: str
     digest: str  # of the text
-
-
-class Written(Struct, frozen=True, kw_only=True):
-    """The procedure was written."""
-
-    digest: str  # of the new text
+    unreadable: str | None = None  # why there is no text, as of a file that was deleted; text and digest are empty then
 
 
 class Replaced(Struct, frozen=True, kw_only=True):
     """The procedure was written."""
 
     digest: str  # of the new text
-    undo: str  # the text that was there
+    revision: int | None  # number of the write, which can be undone; null where the text was this one already
 
 
 class Copied(Struct, frozen=True, kw_only=True):
@@ -132,6 +140,7 @@ _SHOULD: Mapping[Any, str] = {
     Evaluate | Visible: "type is evaluate or visible; id is a whole number, slugs is a list of strings, "
     "parameters are a mapping of names to values, or null",
     SourceEdit: "text is a string, digest is a string or null",
+    CopyOrder: "text is a string",
     FitOrder: "fresh is true or false",
     ExportOrder: f"what is a list of {_words(Part)}; format is one of {_words(ExportFormat)}; "
     f"count lies between 1 and {MOST_SAMPLES}; seed is a whole number",
@@ -140,7 +149,7 @@ _SHOULD: Mapping[Any, str] = {
     CancelOrder: f"kind is one of {_words(JobKind)}",
     RestoreOrder: "digest is a string or null",
     ApplyOrder: "to is copy or procedure, digest is a string or null",
-    list[Mark]: "a mark has a, b (slugs of references) and same (true or false)",
+    MarkOrder: "a mark has a, b (slugs of references) and same (true, false or null)",
     dict[str, Any]: "send a JSON object",
 }
 

@@ -4,6 +4,7 @@ export type * from "./problems";
 export type * from "./judgement";
 export type * from "./collection";
 export type * from "./work";
+export type * from "./revisions";
 export type * from "./detail";
 export type * from "./answers";
 export type * from "./changes";

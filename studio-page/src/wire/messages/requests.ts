@@ -36,6 +36,11 @@ export interface SourceEdit {
   digest?: string | null;
 }
 
+/** A text to be put into a new file beside the procedure. */
+export interface CopyOrder {
+  text: string;
+}
+
 /** Fit. */
 export interface FitOrder {
   /** learn anew, and do not resume the run before. */
@@ -58,12 +63,20 @@ export interface TellOrder {
   told: Told;
 }
 
+/** Mark a pair of references, or where ``a`` is ``b`` a reference and its own replica. */
+export interface MarkOrder {
+  a: Slug;
+  b: Slug;
+  /** null takes the mark away. */
+  same: boolean | null;
+}
+
 /** End a job. */
 export interface CancelOrder {
   kind: JobKind;
 }
 
-/** Put a run's procedure back. */
+/** Put a run's procedure back, or the text before a write. */
 export interface RestoreOrder {
   /** as in SourceEdit. */
   digest?: string | null;
@@ -82,20 +95,16 @@ export interface Source {
   text: string;
   /** of the text. */
   digest: string;
-}
-
-/** The procedure was written. */
-export interface Written {
-  /** of the new text. */
-  digest: string;
+  /** why there is no text, as of a file that was deleted; text and digest are empty then. */
+  unreadable: string | null;
 }
 
 /** The procedure was written. */
 export interface Replaced {
   /** of the new text. */
   digest: string;
-  /** the text that was there. */
-  undo: string;
+  /** number of the write, which can be undone; null where the text was this one already. */
+  revision: number | null;
 }
 
 /** A new file was written. */
