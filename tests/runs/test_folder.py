@@ -11,15 +11,17 @@ from shapewright.runs.folder import (
     check_writable,
     new_folder,
     next_run,
+    previous_run,
     read_record,
     runs,
     suggested_parameters,
 )
 
 
-def write_run(folder):
+def write_run(folder, created="2026-01-01T00:00:00+00:00"):
+    record = {"format": 1, "name": folder.name, "created": created, "references": [{"name": "chair"}]}
     with new_folder(folder) as partial:
-        (partial / "iteration.json").write_text(json.dumps({"format": 1, "name": folder.name}))
+        (partial / "iteration.json").write_text(json.dumps(record))
     return folder
 
 
@@ -29,6 +31,19 @@ def test_runs_are_numbered_after_the_greatest(tmp_path):
     write_run(tmp_path / "by-name")
     assert next_run(tmp_path).name == "008"
     assert [run.name for run in runs(tmp_path)] == ["007", "by-name"]
+
+
+def test_numbers_and_the_records_time_order_runs_not_the_times_of_files(tmp_path):
+    days = {"002": 2, "010": 4, "wide": 3, "001": 1, "early": 1, "later": 5}
+    for age, (name, day) in enumerate(days.items()):
+        write_run(tmp_path / name, f"2026-01-{day:02d}T00:00:00+00:00")
+        os.utime(tmp_path / name / "iteration.json", (10**9 - age, 10**9 - age))
+    assert [run.name for run in runs(tmp_path)] == ["001", "early", "002", "wide", "010", "later"]
+    assert previous_run(tmp_path / "010").name == "wide" and previous_run(tmp_path / "001") is None
+    assert previous_run(tmp_path / "011", {"chair"}).name == "later"
+    # The clock of the machine that made the next one is years behind.
+    write_run(tmp_path / "011", "2001-01-01T00:00:00+00:00")
+    assert [run.name for run in runs(tmp_path)][-2:] == ["011", "later"]
 
 
 def test_a_run_is_never_overwritten(tmp_path):

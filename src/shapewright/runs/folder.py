@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import tempfile
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
+from functools import lru_cache
+from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +17,7 @@ from shapewright.storage import is_free, whole_folder
 
 FORMAT = 1
 RECORD, EXPLANATION = "iteration.json", "explanation.json"
+_NUMBER = re.compile(r"\d+")
 
 
 class RunError(Exception):
@@ -54,24 +58,50 @@ def check_writable(folder: Path) -> None:
 
 
 def runs(root: Path) -> list[Path]:
-    """The folders of whole runs under ``root``, oldest first."""
+    """The folders of whole runs under ``root``, oldest first.
+
+    Their numbers decide, and among runs of other names the time that their record says: times of files are those of
+    the last copy. A record that cannot be read counts as old as the run before it.
+    """
     found = [path.parent for path in root.glob(f"*/{RECORD}") if not path.parent.name.startswith(".")]
-    return sorted(found, key=lambda folder: ((folder / RECORD).stat().st_mtime_ns, folder.name))
+    numbered = sorted(
+        (folder for folder in found if _NUMBER.fullmatch(folder.name)), key=lambda folder: int(folder.name)
+    )
+    # A clock may have gone wrong, a number cannot: what has a greater one is not older.
+    ages = dict(zip(numbered, accumulate(map(_created, numbered), max), strict=True))
+    numbers = {folder: int(folder.name) for folder in numbered}
+    return sorted(
+        found, key=lambda folder: (ages.get(folder) or _created(folder), numbers.get(folder, math.inf), folder.name)
+    )
+
+
+def _created(folder: Path) -> str:
+    try:
+        return _created_as_written(folder, (folder / RECORD).stat().st_mtime_ns)
+    except OSError:
+        return ""
+
+
+@lru_cache(maxsize=4096)
+def _created_as_written(folder: Path, stamp: int) -> str:
+    """Date and time in ISO 8601, UTC; empty where the record cannot be read."""
+    try:
+        return str(read_record(folder)["created"])
+    except (RunError, KeyError):
+        return ""
 
 
 def next_run(root: Path) -> Path:
     """The folder of the next numbered run: 001, 002, ... after the greatest number there."""
-    taken = [int(path.name) for path in root.glob("*") if re.fullmatch(r"\d+", path.name)]
+    taken = [int(path.name) for path in root.glob("*") if _NUMBER.fullmatch(path.name)]
     return root / f"{max(taken, default=0) + 1:03d}"
 
 
 def previous_run(folder: Path, names: set[str] | None = None) -> Path | None:
     """The newest run beside ``folder`` that is older than it and shares one of the names; None where there is none."""
-    beside = [run for run in runs(folder.parent) if run != folder]
-    if (folder / RECORD).exists():
-        written = (folder / RECORD).stat().st_mtime_ns
-        beside = [run for run in beside if (run / RECORD).stat().st_mtime_ns < written]
-    for run in reversed(beside):
+    beside = runs(folder.parent)
+    older = beside[: beside.index(folder)] if folder in beside else beside
+    for run in reversed(older):
         theirs = {entry["name"] for entry in read_record(run)["references"]}
         if names is None or names & theirs:
             return run
