@@ -7,6 +7,7 @@ import pytest
 from broken_disk import full_after, hidden, killed, shown
 from shapewright.storage import (
     cache_folder,
+    cell,
     file_names,
     printable,
     remove_leftovers,
@@ -144,3 +145,13 @@ def test_names_that_are_not_utf_8_are_printable_and_written():
 def test_a_text_with_a_part_of_such_a_name_is_written_all_the_same(tmp_path):
     write_file(tmp_path / "report.html", "st\udcfchl")
     assert (tmp_path / "report.html").read_text() == "st?hl"
+
+
+@pytest.mark.parametrize("text", ["=1+1", "+a", "-a", "@SUM(A1)", "\t=1", "\r=1"])
+def test_no_cell_of_a_table_is_run_as_a_formula(text):
+    assert cell(text) == f"'{text}"
+
+
+@pytest.mark.parametrize("text", ["", "chair", "a=b", "1-2"])
+def test_other_cells_stay(text):
+    assert cell(text) == text

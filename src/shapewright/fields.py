@@ -23,7 +23,7 @@ class Within:
 
     def __contains__(self, value: float) -> bool:
         return (
-            math.isfinite(value)
+            _is_finite(value)
             and (self.least is None or value >= self.least)
             and (self.most is None or value <= self.most)
             and (self.above is None or value > self.above)
@@ -81,6 +81,13 @@ class Field:
     def _is_number(self, value: Any) -> bool:
         kinds = (int,) if self.kind is int else (int, float)
         return isinstance(value, kinds) and not isinstance(value, bool) and value in self.within
+
+
+def _is_finite(value: float) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # a whole number that no float comes near to
+        return False
 
 
 def fields_of(kind: type[Any]) -> Mapping[str, Field]:

@@ -103,6 +103,11 @@ def file_names(names: tuple[str, ...]) -> dict[str, str]:
     return slugs
 
 
+def cell(text: str) -> str:
+    """A text as a cell of a table that spreadsheets open: none that begins like a formula is run as one."""
+    return f"'{text}" if text[:1] in ("=", "+", "-", "@", "\t", "\r") and text else text
+
+
 def printable(path: str | Path) -> str:
     """A path or a name as it can be shown and written: bytes that are no UTF-8 are read as Latin-1, as older systems
     wrote them; where that gives no letter either, a sign stands in their place."""

@@ -1,3 +1,5 @@
+// First of all, since the route is read from the address as well.
+import "./wire/access";
 import { render } from "preact";
 import { App } from "./frame/app";
 import { start } from "./state/studio";

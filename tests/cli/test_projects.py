@@ -7,7 +7,8 @@ from typer.testing import CliRunner
 import shapewright as sw
 from shapewright.building import Workers
 from shapewright.cli.main import app
-from shapewright.cli.projects import NEEDED, starter
+from shapewright.cli.projects import NEEDED, place_procedure, starter
+from shapewright.demo import procedures
 from shapewright.shapes import Drawing, Mesh
 
 
@@ -48,3 +49,13 @@ def test_a_page_of_openscad_has_its_own_name_in_every_command(tmp_path):
     told = made(tmp_path / "trays", "openscad")
     assert "trays/procedure.scad and" in told and "fit procedure.scad references" in told
     assert "--procedure procedure.scad" in told and (tmp_path / "trays" / "procedure.scad").is_file()
+
+
+def test_the_demos_procedure_fits_its_references_and_an_authors_own_stays(tmp_path):
+    place = tmp_path / "procedure.py"
+    for drawn in (False, True, False):
+        assert place_procedure(place, procedures.path("v5", drawn))
+        assert place.read_bytes() == procedures.path("v5", drawn).read_bytes()
+    place.write_text(place.read_text() + "# mine\n")
+    mine = place.read_bytes()
+    assert not place_procedure(place, procedures.path("v5", True)) and place.read_bytes() == mine

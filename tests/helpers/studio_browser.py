@@ -61,7 +61,7 @@ class Visit:
         """Open the studio's address, as it was printed, in a context of its own."""
         context = browser.new_context(viewport={"width": 1360, "height": 860}, **options)
         visit = cls(studio, context.new_page())
-        visit.page.set_default_timeout(30_000)
+        visit.page.set_default_timeout(90_000)
         visit.page.on("console", visit._hears)
         visit.page.on("pageerror", lambda error: visit.trouble.append(str(error)))
         visit.page.on("request", lambda request: visit._sees(request.url))

@@ -88,7 +88,8 @@ class Studio:
     def listen(self) -> dict[str, Any]:
         """Open the WebSocket; returns the state."""
         address = f"ws://127.0.0.1:{self.port}/api/live"
-        self.socket = self.stack.enter_context(connect(address, additional_headers=self.headers, max_size=None))
+        limits: dict[str, Any] = {"max_size": None, "max_queue": None}  # a test may not listen for a long while
+        self.socket = self.stack.enter_context(connect(address, additional_headers=self.headers, **limits))
         return self.next(lambda message: message["type"] == "state", 10)
 
     def next(self, wanted: Callable[[dict[str, Any]], bool], seconds: float = 60) -> dict[str, Any]:

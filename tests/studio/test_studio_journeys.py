@@ -176,6 +176,57 @@ def test_a_slider_changes_the_replica_and_its_distance(visit: Visit, fitted: dic
     assert float(value.input_value()) == pytest.approx(was, abs=1e-3)
 
 
+def test_changes_of_parameters_are_undone_and_a_field_shows_what_holds(visit: Visit, fitted: dict[str, Any]) -> None:
+    page = visit.page
+    visit.open("kitchen")
+    field = page.locator("[data-parameter=height] .number")
+    found = field.input_value()
+
+    def shows(value: str) -> None:
+        visit.until(f"document.querySelector('[data-parameter=height] .number').value === '{value}'")
+
+    field.fill("0.9")
+    field.press("Enter")
+    page.wait_for_timeout(1000)  # another step begins
+    field.fill("0.7")
+    field.press("Enter")
+    field.press("Control+z")
+    shows("0.9")
+    field.press("Control+z")
+    shows(found)
+    field.press("Control+z")
+    shows(found)
+    field.press("Control+Shift+z")
+    shows("0.9")
+    field.fill("0.8")
+    field.press("Control+z")  # typed, and not tried yet
+    shows("0.9")
+    field.fill("")
+    field.press("Enter")
+    shows("0.9")
+    page.click("[data-own-undo] header [title^='Undo the last']")
+    shows(found)
+    page.wait_for_selector(".figures:not(.waiting)")
+
+
+def test_a_value_beyond_the_range_is_tried_and_offered_as_a_wider_range(visit: Visit, fitted: dict[str, Any]) -> None:
+    page, path = visit.page, visit.studio.folder / "procedure.py"
+    before = path.read_text()
+    visit.open("kitchen")
+    page.wait_for_timeout(300)
+    found, field = visit.distance, page.locator("[data-parameter=height] .number")
+    field.fill("1.7")
+    field.press("Enter")
+    visit.until(f"{SHOWN} !== '{found:.3f}'.slice(1)")
+    page.wait_for_selector(".figures:not(.waiting)")
+    assert field.input_value() == "1.7"
+    page.wait_for_selector("[data-parameter=height] .badge:has-text('beyond its Range')")
+    page.click("[data-parameter=height] .beyond button")
+    page.wait_for_selector(".cm-line:has-text('height: Annotated[float, Range(0.5, 1.7')")
+    assert path.read_text() == before
+    page.click("text=Discard")
+
+
 def test_residuals_and_parts_are_coloured(visit: Visit, fitted: dict[str, Any]) -> None:
     page = visit.page
     visit.open("kitchen")
@@ -380,12 +431,40 @@ def test_a_fit_is_cancelled(visit: Visit, fitted: dict[str, Any]) -> None:
     page.wait_for_selector(".stages li.running")
     page.click("text=Cancel the fit")
     page.wait_for_selector(".fit-pane header:has-text('cancelled after')", timeout=60_000)
+    assert page.locator(".stages li.broken").count() == 1 and page.locator(".stages li.running").count() == 0
+    assert "cancelled here" in page.inner_text(".stages li:last-child")
+    assert page.inner_text(".status") == f"run {fitted['collection']['run']}"
     visit.studio.send("PATCH", "/api/settings", {"samples": 200, "epochs": 2})
     state = visit.studio.wait_for(rested)
     assert [run["run"] for run in state["runs"]] == [run["run"] for run in fitted["runs"]]
     visit.go("collection")
     page.wait_for_selector("[data-group]")
     assert page.locator("[data-group]").count() > 0
+
+
+def test_elapsed_time_goes_on_while_the_server_says_nothing(visit: Visit, fitted: dict[str, Any]) -> None:
+    page, silent = visit.page, {"now": False}
+
+    def between(socket: Any) -> None:
+        server = socket.connect_to_server()
+        server.on_message(lambda message: None if silent["now"] else socket.send(message))
+
+    page.route_web_socket("**/api/live", between)
+    page.reload()
+    page.wait_for_selector(".tile")
+    visit.studio.send("PATCH", "/api/settings", {"samples": 3000, "epochs": 200})
+    visit.go("loop")
+    page.click("text=Fit afresh")
+    page.wait_for_selector(".stages li.running")
+    silent["now"] = True
+    page.wait_for_timeout(300)
+    shown = page.inner_text(".fit-pane header p"), page.inner_text(".stages li.running .time")
+    page.wait_for_timeout(1500)
+    assert page.inner_text(".fit-pane header p") != shown[0]
+    assert page.inner_text(".stages li.running .time") != shown[1]
+    visit.studio.send("POST", "/api/cancel", {"kind": "fit"}, 202)
+    visit.studio.send("PATCH", "/api/settings", {"samples": 200, "epochs": 2})
+    visit.studio.wait_for(rested)
 
 
 def test_two_iterations_are_compared(visit: Visit, fitted: dict[str, Any]) -> None:

@@ -81,9 +81,29 @@ def demo(
         iteration = fit_and_save(load_procedure(procedures.path(version, drawings)), loaded, settings, folder)
         if not json:
             print_iteration(iteration, folder)
-    if not (out_dir / "procedure.py").exists():
-        shutil.copyfile(procedures.path(version), out_dir / "procedure.py")
+    placed = place_procedure(out_dir / "procedure.py", procedures.path(version, drawings))
     if json:
         print_json(iteration_record(iteration, folder))
     else:
+        if not placed:
+            out.print(
+                f"\n{escape(str(out_dir))}/procedure.py is your own and stays; "
+                f"the demo's is {escape(str(procedures.path(version, drawings)))}",
+                highlight=False,
+                soft_wrap=True,
+            )
         out.print(f"\nto go on in the browser: shapewright studio {escape(str(out_dir))}", highlight=False)
+
+
+def place_procedure(place: Path, wanted: Path) -> bool:
+    """Put a procedure of the demo where there is none, or another one of the demo's; what an author wrote stays.
+
+    place: the file to write. wanted: the procedure. Returns whether it is there now.
+    """
+    from shapewright.demo.procedures import VERSIONS, path
+
+    bundled = {path(version, drawn).read_bytes() for version in VERSIONS for drawn in (False, True)}
+    if place.exists() and place.read_bytes() not in bundled:
+        return False
+    shutil.copyfile(wanted, place)
+    return True

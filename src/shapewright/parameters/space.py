@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice, product
 from types import SimpleNamespace
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,14 +91,25 @@ class ParameterSpace:
         active = set(self.active(values))
         return {p.name: values[p.name] if p.name in active else p.default for p in self.parameters}
 
-    def carry(self, values: Mapping[str, Value], otherwise: Mapping[str, Value] | None = None) -> Parameters:
+    def carry(
+        self,
+        values: Mapping[str, Value],
+        otherwise: Mapping[str, Value] | None = None,
+        beyond: Collection[str] = (),
+    ) -> Parameters:
         """Values of another version of the procedure, for this one.
 
         A parameter that still exists keeps its value, or the nearest that this space allows. One that is new, or whose
-        value is no longer an option, takes that of ``otherwise``, or its default.
+        value is no longer an option, takes that of ``otherwise``, or its default. beyond: names of numbers that may
+        lie outside their Ranges.
         """
         fallback = {**self.defaults, **(otherwise or {})}
-        return self.canonical({p.name: _nearest(p, values.get(p.name), fallback[p.name]) for p in self.parameters})
+        carried = {p.name: _nearest(p, values.get(p.name), fallback[p.name]) for p in self.parameters}
+        for p in self.parameters:
+            value = values.get(p.name)
+            if p.name in beyond and isinstance(p, Scalar | Integer) and _is_number(value):
+                carried[p.name] = float(value) if isinstance(p, Scalar) else round(value)
+        return self.canonical(carried)
 
     def sample(self, count: int, seed: int = 0) -> list[Parameters]:
         """Draw ``count`` different vectors at random; all of them, shuffled, when the space holds no more.
@@ -205,6 +216,10 @@ def _nearest(parameter: Parameter, value: Value | None, otherwise: Value) -> Val
             return parameter.decode(parameter.encode(value))
         return otherwise
     return value if value in (parameter.levels or ()) and value is not None else otherwise
+
+
+def _is_number(value: Value | None) -> TypeGuard[float]:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < math.inf
 
 
 def _holds(parameter: Parameter, namespace: SimpleNamespace) -> bool:

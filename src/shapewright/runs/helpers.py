@@ -131,6 +131,12 @@ def unchanged(helpers: Mapping[str, bytes], path: Path) -> bool:
     return True
 
 
+def unchanged_beside(run: Path, path: Path) -> bool:
+    """The same of what a run keeps from the procedure's folder alone."""
+    kept = read_helpers(run)
+    return unchanged({name: content for name, content in kept.items() if name.startswith(f"{_BESIDE}/")}, path)
+
+
 def _named(text: Path, procedure: Path) -> Iterator[Opened]:
     """Files that the code names, from its folder or from the working folder."""
     with suppress(OSError, SyntaxError, ValueError):

@@ -26,7 +26,7 @@ from shapewright.runs.result import MEASURES, Result, from_record, read_replica,
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh
 from shapewright.shapes.files import encode
-from shapewright.storage import file_names
+from shapewright.storage import cell, file_names
 from shapewright.threads import in_threads
 
 _AS_RECORDED = ("seconds", "procedure", "collection", "metrics", "versions", "created")
@@ -234,7 +234,8 @@ class Iteration:
                 values = (result.parameters or {}).get
                 group = "" if result.group is None else result.group
                 known = (result.name, result.grade, result.compatible)
-                table.writerow([*known, *measures, group, *(values(n, "") for n in names)])
+                row = [*known, *measures, group, *(values(n, "") for n in names)]
+                table.writerow([cell(value) if isinstance(value, str) else value for value in row])
 
 
 def draw_pictures(results: Sequence[Result], threads: int | None = None) -> Pictures:

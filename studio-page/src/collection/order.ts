@@ -6,7 +6,7 @@ import { collection, tiles } from "../state/studio";
 import type { Grade, Slug, Tile } from "../wire/messages";
 import { at } from "./focus";
 
-export type Filter = "all" | Grade | "turned" | "limit" | "failed";
+export type Filter = "all" | Grade | "turned" | "longer" | "failed";
 export type Sort = "groups" | "worst" | "best" | "name" | "worse" | "better";
 
 export const filter = signal<Filter>("all");
@@ -46,7 +46,7 @@ const PASSES: Record<Filter, (tile: Tile) => boolean> = {
   close: (tile) => tile.grade === "close",
   different: (tile) => tile.grade === "different",
   turned: (tile) => tile.pose !== null,
-  limit: (tile) => tile.at_limit.length > 0,
+  longer: (tile) => tile.longer.length > 0,
   failed: (tile) => tile.problem !== null,
 };
 

@@ -66,8 +66,8 @@ function Card({ tile, children }: Props) {
             <span>{stands(tile.pose)}</span>
           </span>
         )}
-        {tile.at_limit.length > 0 && (
-          <span class="badge warn" title={`At the end of its Range: ${tile.at_limit.join(", ")}`}>
+        {tile.longer.length > 0 && (
+          <span class="badge warn" title={`A longer Range would bring it nearer: ${tile.longer.join(", ")}`}>
             <Icon name="limit" />
           </span>
         )}

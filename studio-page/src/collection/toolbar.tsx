@@ -1,7 +1,7 @@
 /** Above the tiles: how many are replicated, what is shown, in what order. */
 
 import { createRef } from "preact";
-import { collection } from "../state/studio";
+import { collection, unsure } from "../state/studio";
 import { Segments, Select } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { percent } from "../ui/numbers";
@@ -17,7 +17,7 @@ const FILTERS: { value: Filter; label: string; title: string }[] = [
   { value: "close", label: "Close", title: "What its replica resembles, but is not the same as" },
   { value: "replicated", label: "Replicated", title: "What the procedure replicates" },
   { value: "turned", label: "Stand another way", title: "Turned, on their heads or mirrored: the explanation says so" },
-  { value: "limit", label: "At limit", title: "A parameter rests on the end of its Range" },
+  { value: "longer", label: "Longer Range", title: "A longer Range would bring it nearer: the explanation says so" },
   { value: "failed", label: "Failed", title: "The procedure gave an error" },
 ];
 const SORTS: { value: Sort; label: string }[] = [
@@ -66,10 +66,26 @@ function Score() {
       <span>
         <GradeMark grade="different" /> {counts.different} different
       </span>
+      <Unsure />
       <span class="soft" title={`Compatible: ${criterion}`}>
         {judge === "fidelity" ? `paper's measure: ${counts.compatible} of ${count}` : "by the paper's measure"}
       </span>
     </div>
+  );
+}
+
+/** What the count is not sure of. */
+function Unsure() {
+  const { stale, unmeasured } = unsure.value;
+  if (stale === 0 && unmeasured === 0) return null;
+  const parts = [
+    ...(stale ? [`${stale} by an older version of the procedure`] : []),
+    ...(unmeasured ? [`${unmeasured} not measured yet`] : []),
+  ];
+  return (
+    <span class="warn" data-unsure>
+      of these {parts.join(", ")}
+    </span>
   );
 }
 

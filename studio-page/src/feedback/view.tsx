@@ -2,6 +2,7 @@
 
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { cancel, explain } from "../state/actions";
+import { left } from "../state/clock";
 import { complain } from "../state/notices";
 import { collection, explained, jobs } from "../state/studio";
 import { Button } from "../ui/controls";
@@ -78,12 +79,13 @@ export function FeedbackView() {
 function Explain({ again = false }: { again?: boolean }) {
   const job = jobs.explain.value;
   const stage = job.stages.at(-1);
+  const about = left("explain");
   if (job.state === "running" || job.state === "cancelling") {
     return (
       <div class="row">
         <span class="soft">
           {stage?.name ?? "starting"} {stage && stage.total > 1 ? percent(stage.done / stage.total) : "…"}
-          {job.left !== null && ` about ${duration(Math.ceil(job.left))} left`}
+          {about !== null && ` about ${duration(Math.ceil(about))} left`}
         </span>
         <Button disabled={job.state === "cancelling"} onClick={() => cancel("explain")}>
           Cancel

@@ -11,7 +11,7 @@ import { LoopView } from "../loop/view";
 import { fit } from "../state/actions";
 import { useKeys } from "../state/keys";
 import { go, route, VIEWS } from "../state/route";
-import { collection, connected, fitting, jobs, lost, procedure, project, ready } from "../state/studio";
+import { collection, connected, fitting, jobs, lost, procedure, project, ready, unsure } from "../state/studio";
 import { switchTheme } from "../state/theme";
 import { Empty } from "../ui/controls";
 import { Header, ProgressLine } from "./header";
@@ -73,5 +73,5 @@ function title(): string {
   const name = project.value.name || "shapewright studio";
   if (fitting.value) return `${jobs.fit.value.stages.at(-1)?.name ?? "fit"}… ${name}`;
   if (procedure.value.state === "broken") return `broken: ${name}`;
-  return run === null ? name : `${counts.replicated}/${count} ${name}`;
+  return run === null || unsure.value.stale > 0 ? name : `${counts.replicated}/${count} ${name}`;
 }

@@ -4,9 +4,9 @@ import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { cancel } from "../state/actions";
 import { complain } from "../state/notices";
-import { jobs } from "../state/studio";
+import { dimension, jobs } from "../state/studio";
 import { Button, Select } from "../ui/controls";
-import type { ExportFormat, ExportOrder, Part } from "../wire/messages";
+import type { ExportFormat, ExportOrder, Frame, Part } from "../wire/messages";
 import { requests } from "../wire/requests";
 
 const WHAT = [
@@ -20,10 +20,15 @@ const FORMATS = (["glb", "ply", "obj", "stl", "off"] as ExportFormat[]).map((val
   label: value.toUpperCase(),
 }));
 
+const FRAMES: { value: Frame; label: string }[] = [
+  { value: "procedure", label: "as built" },
+  { value: "reference", label: "over the references" },
+];
+
 export function ExportMenu() {
   const open = useSignal(false);
   const what = useSignal<Part[]>(["replicas", "parameters"]);
-  const order = useSignal({ format: "glb" as ExportFormat, count: 50, seed: 0 });
+  const order = useSignal({ format: "glb" as ExportFormat, frame: "procedure" as Frame, count: 50, seed: 0 });
   const place = useRef<HTMLDivElement>(null);
   const job = jobs.export.value;
   const running = job.state === "running" || job.state === "cancelling";
@@ -70,12 +75,25 @@ export function ExportMenu() {
             </label>
           ))}
           <div class="row">
-            <Select
-              label="Format"
-              options={FORMATS}
-              value={order.value.format}
-              onChange={(format) => (order.value = { ...order.value, format })}
-            />
+            {dimension.value === 3 && (
+              <>
+                <Select
+                  label="Format"
+                  options={FORMATS}
+                  value={order.value.format}
+                  onChange={(format) => (order.value = { ...order.value, format })}
+                />
+                {what.value.includes("replicas") && (
+                  <Select
+                    label="Replicas"
+                    title="Axes, units and place of the replicas"
+                    options={FRAMES}
+                    value={order.value.frame}
+                    onChange={(frame) => (order.value = { ...order.value, frame })}
+                  />
+                )}
+              </>
+            )}
             {what.value.includes("samples") && (
               <>
                 <Count

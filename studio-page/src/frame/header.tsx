@@ -2,6 +2,7 @@
 
 import { dirty } from "../loop/editing";
 import { cancel, fit } from "../state/actions";
+import { elapsed } from "../state/clock";
 import { MODIFIER } from "../state/keys";
 import { go, route, VIEWS } from "../state/route";
 import { bench, collection, connected, fitting, jobs, lost, procedure, project } from "../state/studio";
@@ -80,6 +81,10 @@ export function Status() {
       <p class="status busy" role="status">
         <b>{job.state === "cancelling" ? "cancelling" : (stage?.name ?? "starting")}</b>
         {part}
+        <span class="soft" aria-hidden="true">
+          {" "}
+          · {duration(elapsed("fit"))}
+        </span>
         {job.answer && <span class="soft"> · {ANSWERS[job.answer] ?? job.answer}</span>}
       </p>
     );
@@ -89,10 +94,12 @@ export function Status() {
   }
   if (procedure.value.state === "broken") return <p class="status bad">procedure broken</p>;
   if (procedure.value.stale) return <p class="status warn">not fitted since the last edit</p>;
-  if (job.state === "done") return <p class="status soft">fitted in {duration(job.seconds)}</p>;
-  if (job.state === "cancelled") return <p class="status soft">fit cancelled</p>;
   if (job.state === "failed") return <p class="status bad">fit failed</p>;
-  return <p class="status" />;
+  const { run } = collection.value;
+  if (job.state === "done" && job.result?.run === run)
+    return <p class="status soft">fitted in {duration(job.seconds)}</p>;
+  // What was cancelled is over; what is shown counts.
+  return <p class="status soft">{run === null ? "" : `run ${run}`}</p>;
 }
 
 function FitButton() {

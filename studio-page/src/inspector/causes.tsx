@@ -33,7 +33,7 @@ export function Causes() {
   return (
     <section class="causes">
       <header>
-        <h3>Why it differs</h3>
+        <h3>{quiet ? "What still differs" : "Why it differs"}</h3>
         {regions.length > 0 && (
           <Toggle
             label="mark"
@@ -45,15 +45,20 @@ export function Causes() {
       </header>
       {causes.map(({ kind, text }, i) => (
         <p key={i} class={quiet ? "soft" : ""}>
-          <span class={quiet ? "soft" : "badge cause"}>{quiet && i === 0 ? "still differs:" : kind}</span> {text}
+          {!quiet && <span class="badge cause">{kind}</span>} {text}
         </p>
       ))}
-      {remark && <p class="soft">still differs: {remark.text}</p>}
+      {remark && <p class="soft">{remark.text}</p>}
       <ul>
         {regions.map((region, i) => (
-          <li key={i} onPointerEnter={() => (pointed.value = region)} onPointerLeave={() => (pointed.value = null)}>
-            <span class={`badge ${region.side}`}>{WHOSE[region.side]}</span> {percent(region.share ?? 0)} of the{" "}
-            {region.side === "surplus" ? "replica" : "reference"}
+          <li
+            key={i}
+            class={quiet ? "soft" : ""}
+            onPointerEnter={() => (pointed.value = region)}
+            onPointerLeave={() => (pointed.value = null)}
+          >
+            <span class={quiet ? "" : `badge ${region.side}`}>{WHOSE[region.side]}</span> {percent(region.share ?? 0)}{" "}
+            of the {region.side === "surplus" ? "replica" : "reference"}
             {region.label && `, near ${region.label}`}
           </li>
         ))}

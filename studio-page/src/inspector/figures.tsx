@@ -10,7 +10,8 @@ import { GradeMark } from "../ui/picture";
 import type { Piece } from "../wire/messages";
 import { MEASURES } from "../wire/messages/settings";
 import { boxOf, pointed } from "./causes";
-import { edited, failure, figures, outcome, reference, replica, waiting } from "./pair/session";
+import { edited } from "./pair/edits";
+import { failure, figures, outcome, reference, replica, waiting } from "./pair/session";
 
 export function Figures() {
   const failed = failure.value;

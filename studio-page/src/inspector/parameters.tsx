@@ -1,20 +1,38 @@
 /** All parameters of the open pair: live, with what was predicted for them. */
 
+import { proposeRange } from "../loop/editing";
+import { MODIFIER } from "../state/keys";
+import type { TargetedKeyboardEvent } from "preact";
 import { procedure } from "../state/studio";
 import { Button } from "../ui/controls";
 import { percent, shown, significant, words } from "../ui/numbers";
 import type { Parameter, Value } from "../wire/messages";
 import { ControlOf } from "./control";
-import { active, atLimit, edited, reference, reset, resetOne, set, values } from "./pair/session";
+import { edited, past, undone } from "./pair/edits";
+import { active, atLimit, isBeyond, redo, reference, reset, resetOne, set, undo, values } from "./pair/session";
 
 export function Parameters() {
   const found = reference.value;
   const { parameters } = procedure.value;
   const changed = edited.value !== null && parameters.some(({ name }) => differs(name));
   return (
-    <section class="parameters">
+    <section class="parameters" data-own-undo>
       <header>
         <h3>Parameters</h3>
+        <Button
+          kind="quiet"
+          icon="undo"
+          disabled={!past.value.length}
+          title={`Undo the last change of parameters (${MODIFIER}Z)`}
+          onClick={undo}
+        />
+        <Button
+          kind="quiet"
+          icon="redo"
+          disabled={!undone.value.length}
+          title={`Do it again (${MODIFIER}Shift Z)`}
+          onClick={redo}
+        />
         <Button
           kind="quiet"
           disabled={!found?.predicted}
@@ -54,6 +72,7 @@ function Row({ parameter }: { parameter: Parameter }) {
   const value = values.value[name] ?? parameter.default;
   const used = active.value.size === 0 || active.value.has(name);
   const limited = atLimit.value.has(name) && used;
+  const longer = limited && edited.value === null && found?.longer.includes(name);
   const control = (
     <ControlOf
       parameter={parameter}
@@ -79,10 +98,18 @@ function Row({ parameter }: { parameter: Parameter }) {
           {words(name)}
         </span>
         {used ? <Predicted parameter={parameter} value={found?.predicted?.[name] ?? null} /> : <NoEffect />}
-        {limited && (
-          <span class="badge warn" title="It rests on the end of its Range: perhaps the Range ends too soon">
-            at limit
+        {isBeyond(parameter, value) ? (
+          <Beyond parameter={parameter} value={Number(value)} />
+        ) : longer ? (
+          <span class="badge warn" title="A longer Range brings the replica nearer: see why it differs">
+            Range too short
           </span>
+        ) : (
+          limited && (
+            <span class="soft" title="It rests on the end of its Range">
+              at its end
+            </span>
+          )
         )}
         {differs(name) && (
           <Button
@@ -102,6 +129,7 @@ function Row({ parameter }: { parameter: Parameter }) {
             disabled={!used}
             value={significant(Number(value))}
             onChange={(event) => typed(parameter, event.currentTarget)}
+            onKeyDown={(event) => takeBack(event, significant(Number(value)))}
           />
         )}
         {short && control}
@@ -119,10 +147,37 @@ function NoEffect() {
   );
 }
 
-/** A typed value is held inside the Range. */
-function typed({ name, low, high }: Parameter, input: HTMLInputElement): void {
-  const value = input.valueAsNumber;
-  if (Number.isFinite(value)) set(name, Math.min(high ?? value, Math.max(low ?? value, value)));
+/** A value outside the Range was tried; the Range can be made to hold it. */
+function Beyond({ parameter: { name, low, high }, value }: { parameter: Parameter; value: number }) {
+  const wider = [Math.min(low ?? value, value), Math.max(high ?? value, value)].map((end) => significant(end));
+  return (
+    <span class="beyond">
+      <span class="badge warn" title={`The Range goes from ${shown(low)} to ${shown(high)}; this is a trial`}>
+        beyond its Range
+      </span>
+      <Button
+        title={`Change the Range to ${wider.join(" … ")} in the editor; you save it, or not`}
+        onClick={() => void proposeRange(name, wider[0]!, wider[1]!)}
+      >
+        Widen
+      </Button>
+    </span>
+  );
+}
+
+/** A typed value is tried, inside the Range or not. What is no number gives way to the value that holds. */
+function typed({ name, kind, default: usual }: Parameter, input: HTMLInputElement): void {
+  const value = kind === "integer" ? Math.round(input.valueAsNumber) : input.valueAsNumber;
+  if (Number.isFinite(value)) set(name, value);
+  else input.value = significant(Number(values.value[name] ?? usual));
+}
+
+/** Undoing in a field takes first what is typed and not tried yet; never does it show what does not hold. */
+function takeBack(event: TargetedKeyboardEvent<HTMLInputElement>, holds: string): void {
+  const undoes = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
+  if (!undoes || event.currentTarget.value === holds) return;
+  event.preventDefault();
+  event.currentTarget.value = holds;
 }
 
 function Predicted({ parameter: { name, kind }, value }: { parameter: Parameter; value: Value | null }) {

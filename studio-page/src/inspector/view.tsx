@@ -20,7 +20,8 @@ import { take, tool, undo } from "./measuring/points";
 import { Parameters } from "./parameters";
 import { Pictures } from "./pictures";
 import { DifferenceLegend, Plane } from "./plane";
-import { colouring, edited, failure, open, original, replica, reset } from "./pair/session";
+import { edited } from "./pair/edits";
+import { colouring, failure, open, original, redo, replica, reset, undo as undoEdit } from "./pair/session";
 import { layout, stage } from "./pair/layout";
 import { ToldOf } from "./told";
 import { Space } from "./space";
@@ -166,6 +167,8 @@ function InspectorKeys({ slug, step, close }: { slug: Slug; step: (by: number) =
       run: () => (colouring.value = cycle(["plain", "distance", "parts"], colouring.value)),
     },
     { keys: ["r"], does: "parameters as found", run: () => reset() },
+    { keys: ["z"], modified: true, does: "undo a change of parameters", run: undoEdit },
+    { keys: ["Z", "y"], modified: true, does: "do it again", run: redo },
     { keys: ["m"], does: "measure a distance", run: () => take(tool.value === "distance" ? "off" : "distance") },
     { keys: ["a"], does: "measure an angle", run: () => take(tool.value === "angle" ? "off" : "angle") },
     { keys: ["Backspace"], does: "take the last point back", run: undo },

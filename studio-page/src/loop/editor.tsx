@@ -58,14 +58,15 @@ export function EditorPane() {
           <Button onClick={() => void saveAsNew()}>Save mine as a new file</Button>
         </div>
       )}
-      {gone.value && (
+      {gone.value !== "" && (
         <div class="conflict" role="alert">
           <p>{gone.value}. The text here is kept.</p>
           <Button onClick={() => void save(true)}>Write it again</Button>
           <Button onClick={() => void saveAsNew()}>Save it as a new file</Button>
         </div>
       )}
-      <div class="code" ref={place}>
+      {/* The key keeps this element, which the editor is in, from becoming one of those above. */}
+      <div class="code" key="code" ref={place}>
         {!loaded.value && <p class="soft">Loading the editor…</p>}
       </div>
       <footer class="soft">What is saved here is run on this machine, with your rights.</footer>

@@ -1,5 +1,6 @@
 /** The stages of the fit: which are done, which one runs, and how long they took. */
 
+import { elapsedInStage } from "../state/clock";
 import { fitting, jobs } from "../state/studio";
 import { Icon } from "../ui/icons";
 import { duration, percent } from "../ui/numbers";
@@ -23,15 +24,17 @@ export function Stages() {
   return (
     <ol class="stages">
       {job.stages.map(({ name, done, total, remark, seconds }, i) => {
-        const running = fitting.value && i === job.stages.length - 1;
+        const last = i === job.stages.length - 1;
+        const running = fitting.value && last;
+        const broken = last && (job.state === "cancelled" || job.state === "failed");
         const share = total > 0 ? Math.min(1, done / total) : 0;
         return (
-          <li key={i} class={running ? "running" : ""}>
-            {running ? <i class="pulse" /> : <Icon name="check" />}
+          <li key={i} class={running ? "running" : broken ? "broken" : ""}>
+            {running ? <i class="pulse" /> : <Icon name={broken ? "close" : "check"} />}
             <b>{name}</b>
-            <span class="soft">{remark || WHAT[name]}</span>
-            <span class="amount">{running && total > 1 ? `${done}/${total} · ${percent(share)}` : ""}</span>
-            <span class="time">{duration(seconds)}</span>
+            <span class="soft">{broken ? `${job.state} here` : remark || WHAT[name]}</span>
+            <span class="amount">{(running || broken) && total > 1 ? `${done}/${total} · ${percent(share)}` : ""}</span>
+            <span class="time">{duration(running ? elapsedInStage("fit") : seconds)}</span>
             {running && (
               <div class="bar">
                 <i style={{ width: `${100 * share}%` }} />

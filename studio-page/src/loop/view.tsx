@@ -1,6 +1,7 @@
 /** The loop: the procedure's text on one side, the fit on the other. */
 
 import { cancel, fit } from "../state/actions";
+import { elapsed } from "../state/clock";
 import { collection, fitting, jobs, procedure, settings } from "../state/studio";
 import { Button } from "../ui/controls";
 import { duration, plural } from "../ui/numbers";
@@ -55,7 +56,7 @@ function summary(): string {
   const { run, counts, count } = collection.value;
   switch (job.state) {
     case "running":
-      return `running for ${duration(job.seconds)}`;
+      return `running for ${duration(elapsed("fit"))}`;
     case "cancelling":
       return "being cancelled";
     case "cancelled":

@@ -64,8 +64,16 @@ function taken({ key, target }: KeyboardEvent): boolean {
   return (key === " " || key === "Enter") && target.closest("button:not([data-tile]), a, summary, input") !== null;
 }
 
+/** Whether a field of text undoes for itself what is typed in it. */
+function undoesItself({ key, target }: KeyboardEvent): boolean {
+  if (!["z", "Z", "y"].includes(key) || !(target instanceof Element)) return false;
+  const text = target.closest("input:not([type=range], [type=checkbox]), textarea, [contenteditable=true]");
+  return text !== null && target.closest("[data-own-undo]") === null;
+}
+
 window.addEventListener("keydown", (event) => {
   const modified = event.ctrlKey || event.metaKey;
+  if (modified && undoesItself(event)) return;
   if (event.defaultPrevented || event.altKey || (!modified && taken(event))) return;
   if (!modified && event.key.length === 1 && !singleKeys.value) return;
   for (const map of [...keyMaps.value].reverse()) {

@@ -18,7 +18,7 @@ import type {
 } from "../wire/messages";
 import { connect } from "../wire/live";
 import { counted } from "./grades";
-import { complain } from "./notices";
+import { complain, tell } from "./notices";
 
 const idle = (kind: JobKind): Job => ({
   kind,
@@ -77,6 +77,15 @@ export const problems = signal<Problem[]>([]);
 export const tiles = computed(() => new Map(collection.value.tiles.map((tile) => [tile.slug, tile])));
 export const fitting = computed(() => ["running", "cancelling"].includes(jobs.fit.value.state));
 
+/** How many replicas another text of the procedure made, and how many are not measured yet. */
+export const unsure = computed(() => {
+  const shown = collection.value.tiles.filter(({ replica }) => replica !== null);
+  return {
+    stale: shown.filter(({ stale }) => stale).length,
+    unmeasured: shown.filter(({ stale, distance, problem }) => !stale && distance === null && problem === null).length,
+  };
+});
+
 export const tileOf = (slug: Slug): Tile | undefined => tiles.value.get(slug);
 
 export function start(): void {
@@ -105,6 +114,7 @@ function apply(change: Change): void {
       jobs[change.job.kind].value = change.job;
       return;
     case "runs":
+      tellOfOthers(change.runs);
       runs.value = change.runs;
       return;
     case "marks":
@@ -138,6 +148,15 @@ function replace(state: State): void {
   explained.value = state.explanation;
   problems.value = state.problems;
   ready.value = true;
+}
+
+/** A run that was made beside this page from another text is not shown, so it is told. */
+function tellOfOthers(now: Run[]): void {
+  const known = new Set(runs.value.map(({ run }) => run));
+  for (const { run, digest } of now) {
+    if (!known.has(run) && digest !== procedure.value.digest)
+      tell(`Run ${run} is new, of another text of the procedure: see History.`);
+  }
 }
 
 function replaceTiles(changed: Tile[]): void {

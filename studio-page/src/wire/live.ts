@@ -1,5 +1,6 @@
 /** The WebSocket: changes of the state come in, evaluations go out and come back. */
 
+import { keyHeaders, protocols } from "./access";
 import { decode } from "./binary";
 import type { Evaluated } from "./binary";
 import type { Change, PageMessage, Slug, Values } from "./messages";
@@ -22,7 +23,7 @@ let evaluationListener: (message: Evaluated) => void = () => undefined;
 export function connect(listener: Listener, wait = FIRST_WAIT): void {
   const url = new URL("/api/live", location.href);
   url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
-  socket = new WebSocket(url);
+  socket = new WebSocket(url, protocols());
   socket.binaryType = "arraybuffer";
   let next = Math.min(2 * wait, LONGEST_WAIT);
   socket.addEventListener("open", () => {
@@ -43,16 +44,16 @@ export function connect(listener: Listener, wait = FIRST_WAIT): void {
 
 /** A studio that was started anew does not know this page any more. */
 async function reason(): Promise<string> {
-  const answer = await fetch("/api/state").catch(() => null);
+  const answer = await fetch("/api/state", { headers: keyHeaders() }).catch(() => null);
   return answer?.status === 401
     ? "The studio was started anew: open the address that it printed."
     : "The studio does not answer: is it still running? The page connects again by itself.";
 }
 
 /** Ask for a replica; the answers come to the one listener. Returns the number that they carry. */
-export function evaluate(slug: Slug | null, parameters: Values | null, residuals: boolean): number {
+export function evaluate(slug: Slug | null, parameters: Values | null, beyond: string[], residuals: boolean): number {
   lastId += 1;
-  send({ type: "evaluate", id: lastId, slug, parameters, residuals });
+  send({ type: "evaluate", id: lastId, slug, parameters, beyond, residuals });
   return lastId;
 }
 

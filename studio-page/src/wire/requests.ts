@@ -1,5 +1,6 @@
 /** Requests to the server; all of them raise a RequestError that can be shown to the author. */
 
+import { keyHeaders } from "./access";
 import { decode } from "./binary";
 import type { MeshMessage } from "./binary";
 import type {
@@ -34,7 +35,7 @@ export class RequestError extends Error {
 async function answer(path: string, init?: RequestInit): Promise<Response> {
   let response: Response;
   try {
-    response = await fetch(path, init);
+    response = await fetch(path, { ...init, headers: { ...init?.headers, ...keyHeaders() } });
   } catch {
     throw new RequestError("The server does not answer. Is `shapewright studio` still running?", 0, {});
   }

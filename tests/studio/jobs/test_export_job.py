@@ -4,13 +4,16 @@ import io
 import json
 import zipfile
 
+import numpy as np
 import pytest
+import trimesh
 
 from broken_disk import full_after, killed
 from shapewright.modelling.solids import box
 from shapewright.shapes.files import encode
 from shapewright.studio.jobs.events import Reporter
 from shapewright.studio.jobs.export_job import pack
+from shapewright.studio.project.listing import Origin
 
 
 @pytest.fixture
@@ -38,6 +41,25 @@ def test_replicas_keep_their_labels_in_another_format(tmp_path, request_):
     file = pack({**request_, "what": ["replicas"], "format": "ply"}, Reporter(io.BytesIO()))
     data = zipfile.ZipFile(file).read("replicas/a.ply")
     assert b"comment label 0 seat\n" in data and b"element vertex 16\n" in data and b'"reference":"a"' in data
+
+
+def test_replicas_lie_over_their_references_files_where_that_is_wished(tmp_path, request_):
+    run, references = tmp_path / "runs" / "001", tmp_path / "references"
+    (run / "replicas").mkdir()
+    references.mkdir()
+    made = box((2, 4, 1)).label("seat").mesh()
+    (run / "replicas" / "a.glb").write_bytes(encode(made))
+    entry = {"name": "a", "slug": "a", "replica": "replicas/a.glb", "parameters": {}}
+    (run / "iteration.json").write_text(json.dumps({"format": 1, "procedure": {"name": "s"}, "references": [entry]}))
+    # In the file z is up, the front looks to -y, and the shape stands somewhere else, a hundred times as large.
+    trimesh.creation.box((200, 100, 400)).apply_translation((1000, 50, 7)).export(references / "a.stl")
+    order = {**request_, "what": ["replicas"], "format": "obj", "frame": "reference"}
+    file = pack({**order, "origin": vars(Origin(str(references), up="z"))}, Reporter(io.BytesIO()))
+    text = zipfile.ZipFile(file).read("replicas/a.obj").decode()
+    corners = np.array([line.split()[1:] for line in text.splitlines() if line.startswith("v ")], dtype=float)
+    np.testing.assert_allclose(corners.min(axis=0), (900, 0, -193), atol=1e-3)
+    np.testing.assert_allclose(corners.max(axis=0), (1100, 100, 207), atol=1e-3)
+    assert "g seat" in text
 
 
 def test_an_export_is_whole_or_not_there(tmp_path, request_):

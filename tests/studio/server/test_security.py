@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,8 @@ from websockets.sync.client import connect
 
 from shapewright.studio.project.preferences import Preferences
 from shapewright.studio.project.workspace import Project, ProjectError
-from shapewright.studio.server.launch import serve
-from shapewright.studio.server.security import MOST_BYTES, Access
+from shapewright.studio.server.launch import opening_page, serve
+from shapewright.studio.server.security import KEY, MOST_BYTES, PROTOCOL, Access
 from studio_client import PROCEDURE, Studio, studio
 
 
@@ -32,10 +33,18 @@ def status(running: Studio, method: str, path: str, headers: dict[str, str], bod
     return running.request(method, path, headers=headers, raw=body)[0]
 
 
+def arrived(running: Studio) -> tuple[str, str]:
+    """The cookie and the key of a browser that opened the printed address."""
+    found, body, headers = running.request("GET", f"/?token={running.token}", headers={})
+    key = re.search(r"url=/#key=([\w-]+)", body.decode())
+    assert found == 200 and key
+    return headers["set-cookie"].split(";")[0], key[1]
+
+
 def own(running: Studio, **more: str) -> dict[str, str]:
     """What the page itself sends."""
-    cookie = f"shapewright_{running.port}={running.token}"
-    return {"Cookie": cookie, "Origin": f"http://127.0.0.1:{running.port}", **more}
+    cookie, key = arrived(running)
+    return {"Cookie": cookie, KEY: key, "Origin": f"http://127.0.0.1:{running.port}", **more}
 
 
 def test_the_page_itself_is_let_in(running: Studio) -> None:
@@ -43,12 +52,56 @@ def test_the_page_itself_is_let_in(running: Studio) -> None:
     assert status(running, "PATCH", "/api/settings", own(running), b"{}") == 200
 
 
-def test_the_token_of_the_address_becomes_a_cookie(running: Studio) -> None:
-    found, _, headers = running.request("GET", f"/?token={running.token}", headers={})
-    assert found == 303 and headers["location"] == "/"
-    cookie = headers["set-cookie"]
-    assert "HttpOnly" in cookie and "SameSite=Strict" in cookie and running.token in cookie
+def test_the_token_of_the_address_brings_a_cookie_and_a_key_that_differ_from_it(running: Studio) -> None:
+    cookie, key = arrived(running)
+    _, _, headers = running.request("GET", f"/?token={running.token}", headers={})
+    assert "HttpOnly" in headers["set-cookie"] and "SameSite=Strict" in headers["set-cookie"]
+    name, _, secret = cookie.partition("=")
+    assert name == f"shapewright_{running.port}" and len({secret, key, running.token}) == 3
+    for wrong in (secret, key):
+        assert status(running, "GET", "/api/state", {"Authorization": f"Bearer {wrong}"}) == 401
+        assert status(running, "GET", f"/?token={wrong}", {}) == 401
     assert status(running, "GET", f"/api/state?token={running.token}", {}) == 401
+    assert status(running, "GET", "/api/state", own(running, Cookie=f"{name}={running.token}")) == 401
+
+
+@pytest.mark.parametrize(
+    ("method", "path"),
+    [
+        *(("GET", path) for path in ("/api/state", "/api/source", "/api/revisions", "/api/revisions/1")),
+        *(
+            ("GET", path)
+            for path in ("/api/explanation", "/api/runs/001", "/api/references/a", "/api/references/a/shape")
+        ),
+        *(("GET", path) for path in ("/api/compare?before=001&after=002", "/nothing")),
+        *(("POST", path) for path in ("/api/fit", "/api/explain", "/api/export", "/api/cancel", "/api/source/copy")),
+        *(("POST", path) for path in ("/api/pictures/0.png", "/", "/api/suggestions/0/apply", "/api/revisions/1/undo")),
+        *(("PATCH", path) for path in ("/api/settings", "/api/marks", "/api/references")),
+        ("PUT", "/api/source"),
+    ],
+)
+def test_a_server_that_was_sent_the_cookie_can_do_nothing_with_it(running: Studio, method: str, path: str) -> None:
+    """Browsers send cookies to all ports of a host; what other servers there do with them has the right headers."""
+    headers = own(running)
+    del headers[KEY]
+    for key in ("", "guess", running.token, headers["Cookie"].partition("=")[2]):
+        assert status(running, method, path, {**headers, KEY: key}, b"{}" if method != "GET" else None) == 401
+
+
+def test_the_cookie_alone_shows_the_page_and_its_pictures(running: Studio) -> None:
+    cookie = {"Cookie": arrived(running)[0]}
+    assert status(running, "GET", "/", cookie) == 200
+    assert status(running, "GET", "/api/pictures/0.png", cookie) == 404
+
+
+def test_the_token_is_in_no_argument_of_a_program(tmp_path: Path) -> None:
+    (tmp_path / "procedure.py").write_text(PROCEDURE)
+    access = Access("127.0.0.1", 8470)
+    for _ in range(2):
+        page = opening_page(Project.of(tmp_path), access.address)
+        assert access.token not in page.as_uri() and access.address in page.read_text()
+        assert page.stat().st_mode & 0o777 == 0o600
+        page.chmod(0o644)  # left by another studio
 
 
 @pytest.mark.parametrize("path", ["/", "/api/state", "/api/source", "/assets/x.js", "/api/pictures/0.png", "/nothing"])
@@ -100,6 +153,8 @@ def test_another_site_that_reads_is_refused(running: Studio) -> None:
     ("headers", "origin"),
     [
         ({}, "own"),
+        ({"Cookie": "yes"}, "own"),
+        ({"Cookie": "yes", "Sec-WebSocket-Protocol": "shapewright, guess"}, "own"),
         ({"Cookie": "yes"}, "http://evil.example"),
         ({"Cookie": "yes"}, None),
         ({"Cookie": "yes"}, "null"),
@@ -119,9 +174,11 @@ def test_foreign_websocket_is_refused(running: Studio, headers: dict[str, str], 
 
 
 def test_the_pages_own_websocket_is_let_in(running: Studio) -> None:
-    cookie, origin = own(running)["Cookie"], own(running)["Origin"]
-    address = f"ws://127.0.0.1:{running.port}/api/live"
-    with connect(address, additional_headers={"Cookie": cookie}, origin=origin, max_size=None) as socket:  # type: ignore[arg-type]
+    sent, origin = own(running), own(running)["Origin"]
+    address, cookie = f"ws://127.0.0.1:{running.port}/api/live", {"Cookie": sent["Cookie"]}
+    offered: Any = [PROTOCOL, sent[KEY]]
+    with connect(address, additional_headers=cookie, origin=origin, subprotocols=offered, max_size=None) as socket:  # type: ignore[arg-type]
+        assert socket.subprotocol == PROTOCOL
         assert json.loads(socket.recv(timeout=10))["type"] == "state"
 
 
@@ -225,7 +282,10 @@ def test_procedure_that_becomes_a_link_outwards_is_not_read_or_written(running: 
     path = running.folder / "procedure.py"
     path.unlink()
     path.symlink_to(running.folder.parent / "secret.py")
-    assert running.request("GET", "/api/source")[0] == 409
+    assert running.get("/api/source") == {
+        "path": "procedure.py", "text": "", "digest": "",
+        "unreadable": "procedure.py has become a link that leads out of the project",
+    }  # fmt: skip
     assert running.request("PUT", "/api/source", {"text": "x", "digest": None})[0] == 409
     assert (running.folder.parent / "secret.py").read_text() == "secret"
     path.unlink()

@@ -1,4 +1,4 @@
-"""What is told once stays told once: files that a run could not read, by the paths of today."""
+"""The board of a collection: what is told once stays told once, and only what helps is told as an alarm."""
 
 import json
 from pathlib import Path
@@ -37,3 +37,13 @@ def test_a_file_that_was_skipped_under_another_path_is_told_once(tmp_path):
     assert board.skipped == {str(here / "sub" / "a.obj"): "no triangles", str(here / "b.obj"): "cut short"}
     again = board.without("s2", str(here / "b.obj"), "cut short in line 3")
     assert len(again.skipped) == 2 and again.skipped[str(here / "b.obj")] == "cut short in line 3"
+
+
+def test_a_range_is_told_only_where_a_longer_one_would_bring_something(tmp_path):
+    board = lay_out(listed(tmp_path, "a.obj", "b.obj"), Pictures(tmp_path), {}, None, None, Standard.of(Settings(), 3))
+    board = board.with_reference("s0", at_limit=["height"]).with_reference("s1", at_limit=["height", "leg"])
+    assert [tile.longer for tile in board.collection().tiles] == [[], []]
+    wish = {"parameter": "height", "value": 1.4, "end": 1.2, "side": "high"}
+    causes = [{"kind": "missing part", "evidence": {}}, {"kind": "out of range", "evidence": {"wishes": [wish]}}]
+    told = board.explained_by({"references": {"b.obj": {"causes": causes}, "a.obj": {"causes": []}}})
+    assert [tile.longer for tile in told.collection().tiles] == [[], ["height"]]

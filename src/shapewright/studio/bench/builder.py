@@ -10,7 +10,7 @@ from __future__ import annotations
 import pickle
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -31,15 +31,19 @@ MOST_TRIANGLES = 400_000
 
 
 def try_build(
-    procedure: Procedure, values: Parameters, limits: Limits, compiling: Callable[[], object] = lambda: None
+    procedure: Procedure,
+    values: Parameters,
+    limits: Limits,
+    compiling: Callable[[], object] = lambda: None,
+    beyond: Sequence[str] = (),
 ) -> Built:
     """Build the shape at these values, carried over into the procedure's space.
 
-    compiling: see ``time_limit``.
+    compiling: see ``time_limit``. beyond: see ``ParameterSpace.carry``.
     """
     try:
         with time_limit(limits.seconds, compiling):
-            parameters = procedure.space.carry(values)
+            parameters = procedure.space.carry(values, beyond=beyond)
             made = build(procedure, parameters, limits)
             if isinstance(made.shape, Mesh) and len(made.shape.faces) > MOST_TRIANGLES:
                 much = f"{len(made.shape.faces)} triangles are more than the studio shows ({MOST_TRIANGLES})"
@@ -81,8 +85,9 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
     limit_memory(limits.memory_mb)
     limits = replace(limits, seconds=procedure.seconds or limits.seconds)
     answer(version)
-    while (values := _received(requests)) is not None:
-        answer(try_build(procedure, values, limits, working))
+    while (asked := _received(requests)) is not None:
+        values, beyond = asked
+        answer(try_build(procedure, values, limits, working, beyond))
 
 
 def _received(requests: BinaryIO) -> Any:

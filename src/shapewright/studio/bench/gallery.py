@@ -9,12 +9,14 @@ from typing import Generic, TypeVar
 
 from shapewright.procedures import Facts
 from shapewright.references.errors import UnreadableError
+from shapewright.references.readers.formats import CLOUDS, MESHES
+from shapewright.references.readers.pictures import KINDS
 from shapewright.references.reading import Readers
 from shapewright.references.reference import Reference
 from shapewright.references.views import as_views
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
-from shapewright.shapes import Mesh, Points, ReferenceShape
+from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape, Shape
 from shapewright.storage import remove_leftovers, whole_file
 from shapewright.studio.project.listing import PICTURE, PICTURES, Listing, kept_picture
 from shapewright.survey.preparation import without_extras
@@ -87,6 +89,15 @@ class Gallery:
         if isinstance(read, UnreadableError):
             raise read
         return read
+
+    def unlike(self, slug: str, replica: Shape) -> str | None:
+        """What is to be done where a replica cannot be compared with a reference, by the kind of its file alone."""
+        suffix = self.listed.sources[slug].path.suffix.lower()
+        if isinstance(replica, Drawing) and suffix in (*MESHES, *CLOUDS):
+            return "the procedure draws, and the reference is a mesh or points: give it drawings, or build a mesh"
+        if isinstance(replica, Mesh) and suffix not in (*MESHES, *CLOUDS, *KINDS):
+            return "the procedure builds a mesh, and the reference is a drawing: give it meshes, or return a drawing"
+        return None
 
     def picture(self, slug: str) -> bytes:
         """PNG of a reference. As its file has it, it is kept in the cache from now on. Raises as ``[]`` does."""

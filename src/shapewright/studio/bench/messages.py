@@ -54,6 +54,7 @@ class SweepOrder(BenchMessage, frozen=True):
 
     sweep: int
     items: dict[Slug, Values]
+    least: dict[Slug, Values] | None = None  # what those have to be better than to be told; None: all are told
 
 
 class Live(BenchMessage, frozen=True):

@@ -141,7 +141,7 @@ class Bench:
         if self._workshop.open:
             looked_at = request.sweep, request.items, lambda: self._first
             self._tasks["sweep"] = Sweep(
-                *looked_at, self._root, self._workshop, self._target, self._same, self._send
+                *looked_at, self._root, self._workshop, self._unlike, self._measure, self._send, request.least
             ).run()
 
     def _target(self, slug: Slug) -> Target | None:
@@ -151,6 +151,24 @@ class Bench:
             return known or self._targets.put(slug, target_of(self._gallery[slug].shape, self._settings, self._cache))
         except (KeyError, UnreadableError):
             return None
+
+    def _suited(self, slug: Slug, replica: Shape) -> Target | None:
+        """The target of a replica: pictures are views of an object to a mesh."""
+        target = self._target(slug)
+        if target and isinstance(target.shape, Drawing) and isinstance(replica, Mesh):
+            return self._view(slug)
+        return target
+
+    def _unlike(self, slug: Slug, replica: Shape) -> str | None:
+        return self._gallery.unlike(slug, replica) if slug in self._gallery.listed.sources else None
+
+    def _measure(self, slug: Slug, shape: Shape) -> tuple[float, float] | None:
+        """Distance and fidelity of a replica; None for a reference that is not there or cannot be read."""
+        target = self._suited(slug, shape)
+        if target is None:
+            return None
+        replica = shape.normalised()
+        return target.nearest(replica)[0], target.fidelity(replica) * self._same(slug, shape)
 
     def _same(self, slug: Slug, replica: Shape) -> float:
         """How like the sizes of reference and replica are; 1 where proportions count alone."""
@@ -180,7 +198,7 @@ class Bench:
             answer(FailedMessage(id=number, slug=slug, problem=problem, active=active))
 
         try:
-            built = self._workshop.build(request.parameters or {})
+            built = self._workshop.build(request.parameters or {}, request.beyond)
         except Broken as error:
             fail(error.problem)
             return
@@ -201,8 +219,8 @@ class Bench:
             answer(shape_messages.drawing_message(replica, reference, **head))
         if slug is None or self._inbox.outdated:
             return
-        if target and isinstance(target.shape, Drawing) and isinstance(replica, Mesh):
-            target = self._view(slug)
+        if slug is not None:
+            target = self._suited(slug, replica)
         same = self._same(slug, made.shape) if target else 1.0
         answer(shape_messages.verdict_message(target, replica, number, slug, same))
         if not request.residuals or self._inbox.outdated:

@@ -6,7 +6,7 @@ import pickle
 import queue
 import sys
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -89,8 +89,11 @@ class Workshop:
         self._path = path
         return version
 
-    def build(self, values: Mapping[str, Value]) -> Built | None:
-        """Build one shape; None when that was interrupted. Raises Broken when the file has become unusable."""
+    def build(self, values: Mapping[str, Value], beyond: Sequence[str] = ()) -> Built | None:
+        """Build one shape; None when that was interrupted. Raises Broken when the file has become unusable.
+
+        beyond: names of numbers that may lie outside their Ranges.
+        """
         assert self._path is not None
         if self._child is None:
             try:
@@ -98,7 +101,7 @@ class Workshop:
             except ProcedureError as error:
                 raise Broken(of_error(error, "load", self._path.parent)) from error
         assert self._child is not None
-        self._child.send("build", pickle.dumps(dict(values)))
+        self._child.send("build", pickle.dumps((dict(values), tuple(beyond))))
         patience = 1.25 * self._limits.seconds + 0.5
         answer = self._wait(patience, patience) or Failure.of(too_long(self._limits))
         if isinstance(answer, Built):

@@ -6,17 +6,20 @@ import re
 import time
 import zipfile
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from shapewright.runs.folder import read_record
+from shapewright.shapes import Mesh
 from shapewright.storage import remove_leftovers, scratch_folder, whole_file
 from shapewright.studio.jobs import events
 from shapewright.studio.wire.work import JobResult
 
 if TYPE_CHECKING:
+    from shapewright.references import Reference
     from shapewright.shapes.files import Format
 
 _KEPT = 5
@@ -37,7 +40,8 @@ def pack(request: Mapping[str, Any], reporter: events.Reporter) -> Path:
             if run and part in request["what"]:
                 archive.write(run / name, name)
         if run and "replicas" in request["what"]:
-            for name, data in _replicas(run, request["format"], reporter):
+            references = _references(request) if request.get("frame") == "reference" else None
+            for name, data in _replicas(run, request["format"], references, reporter):
                 archive.writestr(f"replicas/{name}", data)
         if "samples" in request["what"]:
             _add_samples(request, archive, reporter)
@@ -46,8 +50,20 @@ def pack(request: Mapping[str, Any], reporter: events.Reporter) -> Path:
     return file
 
 
-def _replicas(run: Path, format: Format, reporter: events.Reporter) -> Iterator[tuple[str, bytes]]:
-    """Names and contents of the replicas' files; each says in its extras which reference it replicates."""
+def _references(request: Mapping[str, Any]) -> dict[str, Reference]:
+    from shapewright.studio.jobs.fit_job import collection
+    from shapewright.studio.project.listing import Origin
+
+    return {reference.name: reference for reference in collection(Origin(**request["origin"]))}
+
+
+def _replicas(
+    run: Path, format: Format, references: Mapping[str, Reference] | None, reporter: events.Reporter
+) -> Iterator[tuple[str, bytes]]:
+    """Names and contents of the replicas' files; each says in its extras which reference it replicates.
+
+    references: by name, to lay the replicas over; None: they stay as the procedure builds them.
+    """
     from shapewright.procedures import Facts
     from shapewright.runs.result import read_replica
     from shapewright.shapes.files import encode
@@ -57,15 +73,22 @@ def _replicas(run: Path, format: Format, reporter: events.Reporter) -> Iterator[
     entries = [entry for entry in record["references"] if entry["replica"]]
     for done, entry in enumerate(entries):
         file = run / entry["replica"]
-        if file.suffix == f".{format}" or file.suffix != ".glb":
+        as_built = references is None or entry["name"] not in references
+        if file.suffix != ".glb" or (as_built and format == "glb"):
             yield file.name, file.read_bytes()
         else:
             extras = {"procedure": record["procedure"]["name"], "reference": entry["name"]}
+            extras |= {"parameters": entry["parameters"], **(facts.stated if as_built else {})}
             shape = read_replica(run, entry)
-            assert shape is not None
-            extras |= {"parameters": entry["parameters"], **facts.stated}
-            yield f"{entry['slug']}.{format}", encode(facts.laid(shape), format, extras)
+            assert isinstance(shape, Mesh)
+            laid = facts.laid(shape) if references is None or as_built else _over(shape, references[entry["name"]])
+            yield f"{entry['slug']}.{format}", encode(laid, format, extras)
         reporter.stage("replicas", done + 1, len(entries))
+
+
+def _over(replica: Mesh, reference: Reference) -> Mesh:
+    """A replica in the axes and units of its reference's file, where that stands."""
+    return replace(replica, vertices=reference.to_original(replica.normalised().vertices))
 
 
 def _add_samples(request: Mapping[str, Any], archive: zipfile.ZipFile, reporter: events.Reporter) -> None:

@@ -22,9 +22,13 @@ class Authored:
     defaults: Values = field(default_factory=dict)  # of the newest good version
     load: int = 0  # number of the newest reading
     saved: bool = False  # whether that followed a save
-    helper: bool = False  # whether the save was of another file than the procedure's own
     _fingerprint: str = ""
     _text: str | None = None
+
+    @property
+    def version(self) -> str | None:
+        """Tells what is on disk, helpers included, from all other versions; None for one that cannot be used."""
+        return None if self.state == "broken" else self._fingerprint
 
     def changed(self) -> bool:
         """Whether a Python file of the project is another than when it was read last."""
@@ -32,13 +36,13 @@ class Authored:
 
     def read(self, saved: bool) -> None:
         """Look at the file anew. Raises ProjectError when it cannot be read; the state is then ``broken``."""
-        before, text = self.digest, self._text
+        before = self._text
         self._fingerprint = self.project.fingerprint()
         self.load += 1
         self.state = "broken"
         self._text, self.digest = self.project.read_source()
-        self.project.seen(text, self._text)
-        self.state, self.saved, self.helper = "loading", saved, saved and self.digest == before
+        self.project.seen(before, self._text)
+        self.state, self.saved = "loading", saved
 
     def accept(self, name: str, parameters: list[Parameter], defaults: Values) -> None:
         self.state, self.name, self.parameters, self.defaults = "good", name, parameters, defaults

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from watchfiles import Change, awatch
@@ -11,22 +12,29 @@ from watchfiles import Change, awatch
 from shapewright.procedures import is_foreign
 from shapewright.references import EXTENSIONS
 from shapewright.references.sources import MANIFEST
+from shapewright.runs.folder import EXPLANATION, RECORD
 from shapewright.studio.project.workspace import SCRATCH, Project
 
 _SHAPES = (*EXTENSIONS, MANIFEST)
 _STEP, _LONGEST = 30, 300
+_PAUSE = 1.0
+"""Seconds between two looks at the runs: their folder may come late, and be a link or on another machine."""
 
 
-async def watch(project: Project, source: Callable[[], object], references: Callable[[], object]) -> None:
-    """Call ``source`` after a file that may be the procedure's changed, ``references`` after a reference did.
+async def watch(
+    project: Project, source: Callable[[], object], references: Callable[[], object], runs: Callable[[], object]
+) -> None:
+    """Call ``source`` after a file that may be the procedure's changed, ``references`` after a reference did, ``runs``
+    after runs or explanations did.
 
-    Those are Python files beside it; of a procedure that is no Python any file of its folder, since it may use that.
+    The first are Python files beside it; of a procedure that is no Python any file of its folder: it may use that.
     """
     foreign = is_foreign(project.procedure)
     shapes = Path(project.origin.source)
     home = shapes if shapes.is_dir() else shapes.parent
     async with asyncio.TaskGroup() as group:
         group.create_task(_watch(project.procedure.parent, foreign, _is_used if foreign else _is_source, source))
+        group.create_task(_look_at(lambda: _stamps(project), runs))
         if home.is_dir():
             group.create_task(_watch(home, True, _is_shape, references))
 
@@ -39,6 +47,25 @@ async def _watch(folder: Path, below: bool, counts: Callable[[Path], bool], chan
         folder, watch_filter=wanted, recursive=below, step=_STEP, debounce=_LONGEST, ignore_permission_denied=True
     ):
         changed()
+
+
+async def _look_at(state: Callable[[], object], changed: Callable[[], object]) -> None:
+    before = state()
+    while True:
+        await asyncio.sleep(_PAUSE)
+        if (now := state()) != before:
+            before = now
+            changed()
+
+
+def _stamps(project: Project) -> dict[Path, list[int]]:
+    """When the files of each run were written."""
+    stamps: dict[Path, list[int]] = {}
+    for run in project.runs:
+        with suppress(OSError):
+            files = (run / name for name in (RECORD, EXPLANATION))
+            stamps[run] = [file.stat().st_mtime_ns for file in files if file.is_file()]
+    return stamps
 
 
 def _is_source(path: Path) -> bool:

@@ -99,6 +99,13 @@ class Project:
         """Folders of whole runs, oldest first; none that leads out of the project."""
         return [run for run in runs(self.folder / "runs") if run.resolve().is_relative_to(self.folder)]
 
+    def home_of_runs(self) -> Path:
+        """The folder for new runs. Raises ProjectError for a link, which may lead out of the project."""
+        folder = self.folder / "runs"
+        if folder.is_symlink():
+            raise ProjectError(f"{folder}: a link, so no run is written there; put a folder in its place")
+        return folder
+
     def run(self, name: str) -> Path:
         """The folder of a run. Raises Missing when there is none of this name."""
         folder = next((run for run in self.runs if run.name == name), None)
@@ -165,7 +172,8 @@ class Project:
                 self.revisions.catch_up(last, now)
 
     def write_copy(self, text: str) -> Path:
-        """Put a text beside the procedure under a new name, and return its path."""
+        """Put a text beside the procedure under a new name, and return its path. Raises ProjectError."""
+        self._check_inside()
         stem, suffix = self.procedure.stem, self.procedure.suffix
         home = self.procedure.parent
         taken = {path.name for path in home.iterdir()}

@@ -22,7 +22,7 @@ from shapewright.runs.folder import RunError
 from shapewright.studio.bench.client import BenchError
 from shapewright.studio.project.workspace import Conflict, Missing, ProjectError
 from shapewright.studio.server import routes as api
-from shapewright.studio.server.security import Access, Guard
+from shapewright.studio.server.security import PROTOCOL, Access, Guard
 from shapewright.studio.session.job_list import Refused
 from shapewright.studio.session.pages import Page
 from shapewright.studio.session.session import Session
@@ -89,7 +89,7 @@ def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
 
 async def _converse(session: Session, socket: WebSocket) -> None:
     """Serve one page until it goes."""
-    await socket.accept()
+    await socket.accept(PROTOCOL if PROTOCOL in socket.scope.get("subprotocols", []) else None)
     page = session.open_page()
 
     async def speak() -> None:

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
+import os
 import socket
 import threading
 import webbrowser
 from collections.abc import Callable
+from pathlib import Path
 
+import h11
 import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from shapewright.studio.project.preferences import Preferences
-from shapewright.studio.project.workspace import Project, ProjectError
+from shapewright.studio.project.workspace import SCRATCH, Project, ProjectError
 from shapewright.studio.server.app import make_app
-from shapewright.studio.server.security import LOOPBACK, MOST_BYTES, Access
+from shapewright.studio.server.security import LOOPBACK, MOST_BYTES, SECONDS, Access
 from shapewright.studio.session.session import Session
 
+_OPENING = "open.html"
 PORT = 8470
 """Tried first, so that the address stays the same from day to day."""
 
@@ -49,16 +55,48 @@ def serve(
         server_header=False,
         ws_max_size=MOST_BYTES,
         timeout_graceful_shutdown=2,
+        http=_Impatient,
     )
 
     def announce() -> None:
         started(access.address)
         if browser:
-            threading.Thread(target=webbrowser.open, args=(access.address,), daemon=True).start()
+            page = opening_page(project, access.address)
+            threading.Thread(target=webbrowser.open, args=(page.as_uri(),), daemon=True).start()
 
     server = _Announcing(config, announce)
-    with contextlib.suppress(KeyboardInterrupt):
-        server.run(sockets=[listening])
+    try:
+        with contextlib.suppress(KeyboardInterrupt):
+            server.run(sockets=[listening])
+    finally:
+        (project.folder / SCRATCH / _OPENING).unlink(missing_ok=True)
+
+
+def opening_page(project: Project, address: str) -> Path:
+    """A file for this user alone that leads to an address: programs and their arguments are seen by all users."""
+    page = project.scratch() / _OPENING
+    page.unlink(missing_ok=True)
+    with os.fdopen(os.open(page, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="utf-8") as file:
+        file.write(f'<!doctype html><meta http-equiv="refresh" content="0;url={address}"><a href="{address}">Open</a>')
+    return page
+
+
+class _Impatient(H11Protocol):
+    """Closes a connection on which the head of a request does not arrive in time."""
+
+    _waiting: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self._waiting = self.loop.call_later(SECONDS, transport.close)
+
+    def data_received(self, data: bytes) -> None:
+        super().data_received(data)
+        if self._waiting and self.conn.their_state is not h11.IDLE:
+            self._waiting.cancel()
+            self._waiting = None
+        elif not self._waiting and self.conn.their_state is h11.IDLE:
+            self._waiting = self.loop.call_later(SECONDS, self.transport.close)
 
 
 class _Announcing(uvicorn.Server):

@@ -1,14 +1,20 @@
 """Who may talk to the studio: its own page in the author's browser, and whoever knows the token.
 
 A page of another site that the author happens to have open can send requests to this machine, so every request is
-looked at: its Host (a foreign name that resolves to this machine is refused), its Origin, and the token of this run.
+looked at: its Host (a foreign name that resolves to this machine is refused), its Origin, and the secrets of this run.
+
+The token is for the address and for programs. It lets a browser in, which gets two other secrets: a cookie, and a key
+that the page keeps and sends itself. Browsers send cookies to all ports of a host, so that other servers on this
+machine come to know the cookie; without the key it opens no more than the page and its pictures.
 """
 
 from __future__ import annotations
 
+import asyncio
 import hmac
 import ipaddress
 import json
+import re
 import secrets
 import socket
 from collections.abc import Mapping
@@ -21,6 +27,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 MOST_BYTES = 2**20
 """Of a request's body."""
+SECONDS = 10.0
+"""That the head of a request has to arrive, and then its body."""
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; img-src 'self' data: blob:; "
@@ -35,7 +43,22 @@ _HEADERS = {
     "cross-origin-resource-policy": "same-origin",
     "permissions-policy": "camera=(), microphone=(), geolocation=()",
 }
+KEY, PROTOCOL = "x-shapewright-key", "shapewright"
+"""The header that has the page's key; and the protocol of its WebSockets, which offer the key as another protocol."""
+_SHOWN = re.compile(
+    r"/|/assets/.*|/api/(pictures|exports)/.*|/api/references/[^/]+/render"
+    r"|/api/runs/[^/]+/(files/.*|report\.html|parameters\.csv|parameters\.json)"
+)
+"""Paths that browsers ask for by themselves, as pictures and links, and so without the key."""
+_ARRIVAL = (
+    '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0;url=/#key={key}">'
+    '<title>shapewright studio</title><a href="/#key={key}">Open the studio</a>'
+)
 Headers = Mapping[str, str]
+
+
+def _secret() -> str:
+    return secrets.token_urlsafe(32)
 
 
 @dataclass(frozen=True)
@@ -44,11 +67,13 @@ class Access:
 
     host: str  # address that the server listens on
     port: int  # port that it listens on
-    token: str = field(default_factory=lambda: secrets.token_urlsafe(32), repr=False)  # of this run
+    token: str = field(default_factory=_secret, repr=False)  # of the address, and of programs
+    cookie: str = field(default_factory=_secret, repr=False)  # of the browser that was let in
+    key: str = field(default_factory=_secret, repr=False)  # of the page that was let in
 
     @property
-    def cookie(self) -> str:
-        """Cookies do not know ports: each studio has a name of its own for its token."""
+    def cookie_name(self) -> str:
+        """Cookies do not know ports: each studio has a name of its own."""
         return f"shapewright_{self.port}"
 
     @property
@@ -75,20 +100,26 @@ class Access:
         """Whether an Origin is the server's own, as the Host of the same request has it."""
         return headers.get("origin") == f"http://{headers.get('host')}"
 
-    def knows_token(self, headers: Headers) -> bool:
-        return self.bears_token(headers) or self._matches(_cookie(headers, self.cookie))
+    def knows_secrets(self, headers: Headers, path: str, reads: bool) -> bool:
+        """Whether a request has the token, or the cookie and, where a page can send it, the key."""
+        if self.bears_token(headers):
+            return True
+        if not _same(_cookie(headers, self.cookie_name), self.cookie):
+            return False
+        return (reads and _SHOWN.fullmatch(path) is not None) or self._has_key(headers)
+
+    def _has_key(self, headers: Headers) -> bool:
+        offered = [word.strip() for word in headers.get("sec-websocket-protocol", "").split(",")]
+        return any(_same(key, self.key) for key in (headers.get(KEY), *offered))
 
     def bears_token(self, headers: Headers) -> bool:
         """Whether the token is in a header that no page of another site can set."""
         kind, _, token = headers.get("authorization", "").partition(" ")
-        return kind.lower() == "bearer" and self._matches(token)
-
-    def _matches(self, token: str | None) -> bool:
-        return token is not None and hmac.compare_digest(token.encode(), self.token.encode())
+        return kind.lower() == "bearer" and _same(token, self.token)
 
     def admits(self, query: str) -> bool:
         """Whether a query string holds the token."""
-        return any(self._matches(token) for token in parse_qs(query).get("token", []))
+        return any(_same(token, self.token) for token in parse_qs(query).get("token", []))
 
 
 class Guard:
@@ -114,9 +145,11 @@ class Guard:
         if refusal:
             await _answer(send, *refusal)
         elif scope["path"] == "/" and self.access.admits(scope["query_string"].decode("latin-1")):
-            cookie = f"{self.access.cookie}={self.access.token}; Path=/; HttpOnly; SameSite=Strict"
-            await send(_start(303, {"location": "/", "set-cookie": cookie, "cache-control": "no-store"}))
-            await send({"type": "http.response.body", "body": b""})
+            # No redirection: where another page led here, its browser would keep the cookie from what follows.
+            cookie = f"{self.access.cookie_name}={self.access.cookie}; Path=/; HttpOnly; SameSite=Strict"
+            kind = {"content-type": "text/html", "set-cookie": cookie, "cache-control": "no-store"}
+            await send(_start(200, kind))
+            await send({"type": "http.response.body", "body": _ARRIVAL.format(key=self.access.key).encode()})
         else:
             await self._pass_limited(scope, receive, send, headers)
 
@@ -131,7 +164,7 @@ class Guard:
             return 403, "requests of other pages are refused"
         query = scope["query_string"].decode("latin-1")
         arriving = scope["type"] == "http" and scope["path"] == "/" and reads and access.admits(query)
-        if not arriving and not access.knows_token(headers):
+        if not arriving and not access.knows_secrets(headers, scope["path"], reads and scope["type"] == "http"):
             return 401, "open the address with the token that `shapewright studio` printed"
         if not reads and "origin" not in headers and not access.bears_token(headers):
             return 403, "a request that changes something needs an Origin"
@@ -140,12 +173,15 @@ class Guard:
         return None
 
     async def _pass_limited(self, scope: Scope, receive: Receive, send: Send, headers: Headers) -> None:
-        """Let a request through, as long as its body is not longer than it may be."""
-        taken, started = 0, False
+        """Let a request through, as long as its body is not longer than it may be, and comes in time."""
+        taken, started, whole = 0, False, False
+        end = asyncio.get_running_loop().time() + SECONDS
 
         async def limited() -> Message:
-            nonlocal taken
-            message = await receive()
+            nonlocal taken, whole
+            async with asyncio.timeout_at(None if whole else end):
+                message = await receive()
+            whole = not message.get("more_body", False)
             taken += len(message.get("body", b""))
             if taken > MOST_BYTES:
                 raise _TooLarge
@@ -161,10 +197,17 @@ class Guard:
         except _TooLarge:
             if not started:
                 await _answer(send, 413, f"more than {MOST_BYTES} bytes")
+        except TimeoutError:
+            if not started:
+                await _answer(send, 408, f"a request has {SECONDS:g} seconds to arrive")
 
 
 class _TooLarge(Exception):
     """A body went on for longer than it may."""
+
+
+def _same(given: str | None, secret: str) -> bool:
+    return given is not None and hmac.compare_digest(given.encode(), secret.encode())
 
 
 def _with_headers(send: Send, more: Headers) -> Send:

@@ -84,6 +84,12 @@ class BenchLink:
         number = self._display.begin_sweep(stage, list(items))
         self.process.ask(SweepOrder(sweep=number, items=dict(items)))
 
+    def guess(self, stage: Stage, items: Mapping[Slug, Values]) -> None:
+        """Show replicas with these parameters, where they are better than what is shown, or than the defaults."""
+        number, shown = self._display.begin_sweep(stage, list(items)), self._display.parameters
+        least = {slug: self._authored.values(shown.get(slug)) for slug in items}
+        self.process.ask(SweepOrder(sweep=number, items=dict(items), least=least))
+
     def _answered(self, page: int, message: LiveMessage | None, payload: bytes) -> None:
         if isinstance(message, VerdictMessage):
             standard, fidelity, distance = self._display.board.standard, message.fidelity, message.distance

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 Record = Mapping[str, Any]
 _POSE: CauseKind = "another pose"
+_TOO_SHORT: CauseKind = "out of range"
 _POSED = ("turned", "on_its_head", "mirrored")
 _RECORDED = ("distance", "compatible", "group", "parameters", "active", "at_limit")
 """What the state of a reference takes from its entry in a run's record as it is."""
@@ -55,19 +56,24 @@ class ReferenceState:
     pose: Pose | None = None
     group: int | None = None
     stage: Stage = "none"
-    stale: bool = False
+    made_by: str | None = None  # version of the procedure that made the replica
     previous: float | None = None
     parameters: Parameters | None = None  # of the replica that is shown
     active: list[str] = field(default_factory=list)  # names of those that matter
     at_limit: list[str] = field(default_factory=list)
+    longer: list[str] = field(default_factory=list)
     problem: Problem | None = None
 
     def colour(self, standard: Standard) -> str | None:
         return standard.colour(self.grade, self.fidelity, self.distance)
 
-    def tile(self, standard: Standard) -> Tile:
-        """As the page gets it."""
-        return message_of(Tile, self, colour=self.colour(standard))
+    def stale(self, version: str | None) -> bool:
+        """Whether there is a replica that another version made than this one."""
+        return self.replica is not None and (version is None or self.made_by != version)
+
+    def tile(self, standard: Standard, version: str | None) -> Tile:
+        """As the page gets it. version: of the procedure on disk."""
+        return message_of(Tile, self, colour=self.colour(standard), stale=self.stale(version))
 
 
 @dataclass(frozen=True)
@@ -79,10 +85,16 @@ class Board:
     run: str | None = None  # name of the run that is shown
     standard: Standard = field(default_factory=lambda: Standard.of(Settings(), 3))
     skipped: Mapping[str, str] = field(default_factory=dict)  # files that cannot be read, and why
+    version: str | None = None  # of the procedure on disk; None for one that cannot be used
+
+    @property
+    def stale(self) -> bool:
+        """Whether a replica is of another version."""
+        return any(state.stale(self.version) for state in self.references.values())
 
     def collection(self) -> Collection:
         """As the page gets it."""
-        tiles = [state.tile(self.standard) for state in self.references.values()]
+        tiles = [state.tile(self.standard, self.version) for state in self.references.values()]
         settings, metric = self.standard.settings, self.standard.metric
         return Collection(
             run=self.run,
@@ -106,11 +118,6 @@ class Board:
         changed = replace(self.references[slug], **changes)
         return replace(self, references={**self.references, slug: changed})
 
-    def with_all(self, **changes: Any) -> Board:
-        """With every reference changed."""
-        changed = {slug: replace(state, **changes) for slug, state in self.references.items()}
-        return replace(self, references=changed)
-
     def judged_by(self, standard: Standard) -> Board:
         """With other cuts, or another judge, and so with other grades."""
         states = self.references.items()
@@ -118,10 +125,13 @@ class Board:
         return replace(self, references=graded, standard=standard)
 
     def explained_by(self, explanation: Record) -> Board:
-        """With what an explanation finds of how the references stand."""
-        told = _poses(explanation)
-        states = self.references.items()
-        return replace(self, references={slug: replace(one, pose=told.get(one.name)) for slug, one in states})
+        """With what an explanation finds of how the references stand, and of Ranges that end too soon."""
+        poses, longer = _poses(explanation), _longer_ranges(explanation)
+        told = {
+            slug: replace(one, pose=poses.get(one.name), longer=longer.get(one.name, []))
+            for slug, one in self.references.items()
+        }
+        return replace(self, references=told)
 
     def without(self, slug: Slug, path: str, reason: str) -> Board:
         """Without a reference that cannot be read."""
@@ -145,6 +155,7 @@ def lay_out(
     previous: Path | None,
     standard: Standard,
     chosen: Mapping[str, Any] | None = None,
+    made_by: str | None = None,
 ) -> Board:
     """The board of a listing, as far as a run knows its references. Raises RunError.
 
@@ -153,6 +164,7 @@ def lay_out(
     previous: the folder of the run before.
     standard: of a board without a run.
     chosen: cuts that the run is judged by in place of its own.
+    made_by: the version of the procedure that made the run's replicas.
     """
     record = read_record(run) if run else None
     if record:
@@ -171,7 +183,7 @@ def lay_out(
     for entry in record["references"]:
         if entry["name"] in slugs:
             slug = slugs[entry["name"]]
-            references[slug] = _filled(references[slug], entry, pictures, run)
+            references[slug] = replace(_filled(references[slug], entry, pictures, run), made_by=made_by)
     groups = tuple(_groups(record["groups"], slugs))
     of_run = _still_there(record["collection"]["skipped"], (*known, *skipped))
     board = Board(references, groups, run.name, standard, {**of_run, **skipped})
@@ -235,6 +247,16 @@ def _poses(explanation: Record) -> dict[str, Pose]:
         evidence = next((cause["evidence"] for cause in found.get("causes", ()) if cause["kind"] == _POSE), None)
         if evidence:
             told[name] = Pose(text=evidence["words"], **{key: evidence[key] for key in _POSED})
+    return told
+
+
+def _longer_ranges(explanation: Record) -> dict[str, list[str]]:
+    """By name of the reference, parameters whose longer Range would bring something."""
+    told = {}
+    for name, found in explanation.get("references", {}).items():
+        causes = [cause["evidence"] for cause in found.get("causes", ()) if cause["kind"] == _TOO_SHORT]
+        if causes:
+            told[name] = [wish["parameter"] for cause in causes for wish in cause.get("wishes", ())]
     return told
 
 

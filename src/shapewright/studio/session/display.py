@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.runs.folder import EXPLANATION, RunError, read_json, read_record
+from shapewright.runs.helpers import unchanged_beside
 from shapewright.settings import Settings
 from shapewright.storage import printable
 from shapewright.studio.bench.messages import Drawn, Measured, SweepEnded, Swept, Unreadable
@@ -54,6 +55,8 @@ class Display:
         self.swept = asyncio.Event()
         self._sweep = 0
         self._stage: Stage = "carried"
+        self._sweep_version: str | None = None
+        self._digest = ""
         self._left: set[Slug] = set()
         self._dirty: set[Slug] = set()
         self._reported: list[Problem] = []
@@ -65,24 +68,37 @@ class Display:
         self.listed = Listing({}, {})
         self.listed = listing(self.project.origin)
 
-    def newest(self, digest: str | None = None) -> Path | None:
-        """The newest run that knows some reference, of the version with this digest if one is given."""
+    def newest(self, of_version: bool = False) -> Path | None:
+        """The newest run that knows some reference. of_version: of those that the procedure on disk made."""
         names = {source.name for source in self.listed.sources.values()}
         for folder in reversed(self.project.runs):
             try:
                 record = read_record(folder)
             except RunError:
                 continue
-            of_version = digest is None or record["procedure"]["digest"] == digest
-            if of_version and names & {entry["name"] for entry in record["references"]}:
+            known = names & {entry["name"] for entry in record["references"]}
+            if known and (not of_version or self._is_of_version(folder, record)):
                 return folder
         return None
+
+    def of_version(self, digest: str, version: str | None) -> None:
+        """The procedure on disk is another one: all that earlier ones made is stale.
+
+        digest: of its text. version: see ``Authored.version``.
+        """
+        self._digest = digest
+        if version != self.board.version:
+            self._put_up(replace(self.board, version=version))
+
+    def _is_of_version(self, run: Path, record: Mapping[str, Any]) -> bool:
+        return record["procedure"]["digest"] == self._digest and unchanged_beside(run, self.project.procedure)
 
     def show(self, run: Path | None, standard: Standard) -> None:
         """Show a run, or references alone, to the pages. standard: of references without a run."""
         self.stop_sweep()
-        self.run = run
-        self._put_up(self.laid_out(run, standard, self._chosen).explained_by(self.explanation))
+        self.run, version = run, self.board.version
+        board = self.laid_out(run, standard, self._chosen).explained_by(self.explanation)
+        self._put_up(replace(board, version=version))
         self._forget_pictures()
         self._report_problems()
 
@@ -108,7 +124,7 @@ class Display:
         return content if isinstance(content, dict) else {}
 
     def laid_out(self, run: Path | None, standard: Standard, chosen: Mapping[str, Any] | None = None) -> Board:
-        """The board of a run. Raises RunError.
+        """The board of a run, which is not stale itself. Raises RunError.
 
         standard: of references without a run.
         chosen: cuts that the run is judged by in place of its own.
@@ -116,7 +132,9 @@ class Display:
         runs = self.project.runs
         before = runs[runs.index(run) - 1] if run in runs[1:] else None
         kept = {slug: self._kept(slug) for slug in self.listed.sources}
-        board = lay_out(self.listed, self.pictures, kept, run, before, standard, chosen)
+        made_by = self._made_by(run) if run else None
+        board = lay_out(self.listed, self.pictures, kept, run, before, standard, chosen, made_by)
+        board = replace(board, version=made_by)
         for slug, (path, reason) in self._unreadable.items():
             board = board.without(slug, path, reason)
         return board
@@ -136,9 +154,10 @@ class Display:
         """By name."""
         return {state.name: slug for slug, state in self.board.references.items()}
 
-    def stale(self) -> None:
-        """Everything shown is of an older version."""
-        self._put_up(self.board.with_all(stale=True))
+    def _made_by(self, run: Path) -> str | None:
+        """The version that made a run."""
+        record = read_record(run)
+        return self.board.version if self._is_of_version(run, record) else f"run of {record['procedure']['digest']}"
 
     def _put_up(self, board: Board) -> None:
         self.board = board
@@ -148,7 +167,7 @@ class Display:
         """The number of a sweep that is about to begin; what earlier ones still send is passed over."""
         self._forget_pictures()
         self._sweep += 1
-        self._stage = stage
+        self._stage, self._sweep_version = stage, self.board.version
         self._left = set(slugs)
         self.swept.clear()
         return self._sweep
@@ -181,13 +200,14 @@ class Display:
     def _take_replica(self, message: Swept, payload: bytes) -> None:
         if message.problem:
             problem = message.problem.of(message.slug)
-            self._change(message.slug, problem=problem, stale=True, fidelity=None, distance=None)
+            self._change(message.slug, problem=problem, fidelity=None, distance=None)
             return
         self._change(
             message.slug,
             parameters=message.parameters,
             active=message.active,
             at_limit=message.at_limit,
+            longer=[],
             replica=self.pictures.add(payload),
             fidelity=None,
             distance=None,
@@ -195,7 +215,7 @@ class Display:
             missing=[],
             surplus=[],
             stage=self._stage,
-            stale=False,
+            made_by=self._sweep_version,
             problem=None,
         )
 
@@ -210,7 +230,9 @@ class Display:
     def _flush(self) -> None:
         states = [self.board.references[slug] for slug in sorted(self._dirty) if slug in self.board.references]
         self._dirty.clear()
-        self.pages.publish(TilesChanged(tiles=[state.tile(self.board.standard) for state in states]))
+        self.pages.publish(
+            TilesChanged(tiles=[state.tile(self.board.standard, self.board.version) for state in states])
+        )
         self._report_problems()
 
     def _report_problems(self) -> None:

@@ -48,20 +48,25 @@ class JobList:
         """As the page gets them."""
         return {kind: runner.job() for kind, runner in self._runners.items()}
 
+    @property
+    def fitting(self) -> bool:
+        return self._runners["fit"].running
+
     async def fit(self, settings: Settings, fresh: bool) -> None:
-        """Start a fit; one that runs is ended first. Raises Refused.
+        """Start a fit; one that runs is ended first. Raises Refused, ProjectError.
 
         fresh: learn anew.
         """
         if not self._display.listed.sources:
             raise Refused(f"there are no references in {self._project.origin.source}")
+        runs = self._project.home_of_runs()
         await self._runners["fit"].cancel()
         newest = None if fresh else self._display.newest()
         request = {
             "procedure": str(self._project.procedure),
             "origin": vars(self._project.origin),
             "settings": settings.record(),
-            "runs": str(self._project.folder / "runs"),
+            "runs": str(runs),
             "previous": str(newest) if newest and (newest / "predictor.pt").is_file() else None,
         }
         self._start("fit", request)
@@ -78,6 +83,7 @@ class JobList:
         if run is None and set(order.what) != {"samples"}:
             raise Refused("there is no run to export yet; fit first, or export samples alone")
         place = {"run": str(run) if run else None, "procedure": str(self._project.procedure)}
+        place |= {"origin": vars(self._project.origin)}
         folder = self._project.scratch("exports")
         self._start("export", {**asdict(order), **place, "folder": str(folder)})
 
@@ -111,4 +117,4 @@ class JobList:
         if event.kind in _STAGES:
             slugs = self._display.slugs()
             known = {slugs[name]: values for name, values in event.answer.items() if name in slugs}
-            self._bench.sweep(_STAGES[event.kind], known)
+            self._bench.guess(_STAGES[event.kind], known)

@@ -53,13 +53,13 @@ class Session:
     async def run(self) -> None:
         """Open the project, then serve until cancelled; ends all processes at the end."""
         self._list_references()
-        self.display.show(self.display.newest(), self.standard)
-        self.choices.open()
         self._read_source(saved=False)
+        self.display.show(self.display.newest(of_version=True) or self.display.newest(), self.standard)
+        self.choices.open()
         try:
             async with asyncio.TaskGroup() as group:
                 group.create_task(self._keep_bench())
-                group.create_task(watch(self.project, self.source_saved, self.references_changed))
+                group.create_task(watch(self.project, self.source_saved, self.references_changed, self.runs_changed))
         finally:
             await self.jobs.end()
 
@@ -105,12 +105,7 @@ class Session:
 
     def _procedure(self) -> Procedure:
         runs = self.runs()
-        return self.authored.procedure(self._stale, runs[-1].digest if runs else None)
-
-    @property
-    def _stale(self) -> bool:
-        """Whether the collection shows an older version than the file on disk."""
-        return any(state.stale for state in self.display.board.references.values())
+        return self.authored.procedure(self.display.board.stale, runs[-1].digest if runs else None)
 
     # What pages ask for
 
@@ -148,6 +143,22 @@ class Session:
         self._list_references()
         self._show(self.display.run or self.display.newest())
         self._measure_anew()
+        if self.authored.state == "good" and self.display.board.stale:
+            self.bench.sweep("carried", self.display.parameters)
+
+    def runs_changed(self) -> None:
+        """Runs or explanations came or went; one that the command line makes of this procedure is shown."""
+        if self.jobs.fitting:
+            return  # its own run is shown when it has ended
+        fitted = self.display.newest(of_version=True)
+        gone = self.display.run is not None and self.display.run not in self.project.runs
+        if (fitted and fitted != self.display.run) or gone:
+            self._show(fitted or self.display.newest())
+        else:
+            self.display.explain()
+        self.pages.publish(changes.RunsChanged(runs=self.runs()))
+        self.pages.publish(changes.ExplanationChanged(explanation=self.explained))
+        self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
 
     def _measure_anew(self) -> None:
         self.bench.list_references(self.choices.settings)
@@ -170,12 +181,13 @@ class Session:
         except ProjectError as error:
             self._break(Problem("project", str(error), self.project.procedure.name))
             return
+        self.display.of_version(self.authored.digest, self.authored.version)
         self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
         self.bench.load(self.choices.settings)
 
     def _break(self, problem: Problem) -> None:
         self.authored.reject()
-        self.display.stale()
+        self.display.of_version(self.authored.digest, self.authored.version)
         self.problems.report("procedure", [problem])
         self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
 
@@ -203,10 +215,10 @@ class Session:
         saved, self.authored.saved = self.authored.saved, False
         self.authored.accept(loaded.name, loaded.parameters, loaded.defaults)
         self.problems.report("procedure", [])
-        fitted = None if self.authored.helper else self.display.newest(self.authored.digest)
+        self.display.of_version(self.authored.digest, self.authored.version)
+        fitted = self.display.newest(of_version=True)
         if fitted:
-            if fitted != self.display.run or self._stale:
-                self._show(fitted)
+            self._show(fitted)  # even where it is shown: an edit since may have put its own replicas there
         else:
             self.bench.sweep("carried", self.display.parameters)
         self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))

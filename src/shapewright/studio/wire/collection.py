@@ -25,7 +25,7 @@ class Tile(Judged, frozen=True, kw_only=True):
     stage: Stage
     stale: bool  # the replica is of an older version of the procedure
     previous: float | None  # fidelity in the run before; by the paper's judge its distance
-    at_limit: list[str]  # parameters at an end of their Range
+    longer: list[str]  # parameters whose longer Range would bring it nearer; empty before an explanation
     pose: Pose | None  # null where the reference stands as its replica, or is not explained
     problem: Problem | None
 

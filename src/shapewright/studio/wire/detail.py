@@ -146,6 +146,7 @@ class Reference(Judged, frozen=True, kw_only=True):
     parameters: Values | None  # of the replica that is shown
     active: list[str]
     at_limit: list[str]
+    longer: list[str]  # as in Tile
     measures: Measures  # empty while the replica is not measured whole
     missing: list[Piece]  # of the reference; the largest first
     surplus: list[Piece]  # of the replica; the largest first

@@ -16,6 +16,8 @@ from shapewright.studio.wire.work import JobKind
 MOST_SAMPLES = 10_000
 """More would fill a disk without anybody looking at them."""
 Part: TypeAlias = Annotated[Literal["replicas", "samples", "report", "parameters"], Meta(title="Part")]
+Frame: TypeAlias = Annotated[Literal["procedure", "reference"], Meta(title="Frame")]
+"""Axes, units and place: as the procedure builds, or of the reference's file, over which the replica lies then."""
 ExportFormat: TypeAlias = Annotated[Format, Meta(title="ExportFormat")]
 Request = TypeVar("Request")
 
@@ -34,6 +36,7 @@ class Evaluate(Struct, frozen=True, kw_only=True, tag_field="type", tag="evaluat
     id: int  # rises from one to the next; the answers carry it
     slug: Slug | None = None  # null for a shape alone, measured against nothing
     parameters: Values | None = None  # those left out are as found, or without a slug at their defaults
+    beyond: list[str] = []  # names of numbers that may lie outside their Range; all others take the nearest value in it
     residuals: bool = False  # whether to send the two surfaces with their distances
 
 
@@ -70,7 +73,8 @@ class ExportOrder(Order, frozen=True):
     """What to pack."""
 
     what: Annotated[list[Part], Meta(min_length=1)]
-    format: ExportFormat = "glb"
+    format: ExportFormat = "glb"  # of meshes; drawings are SVG
+    frame: Frame = "procedure"  # of replicas that are meshes
     count: Annotated[int, Meta(ge=1, le=MOST_SAMPLES)] = 50  # of random samples
     seed: Annotated[int, Meta(ge=0)] = 0  # of random samples
 
@@ -138,11 +142,12 @@ def _words(kind: Any) -> str:
 
 _SHOULD: Mapping[Any, str] = {
     Evaluate | Visible: "type is evaluate or visible; id is a whole number, slugs is a list of strings, "
-    "parameters are a mapping of names to values, or null",
+    "parameters are a mapping of names to values, or null, beyond is a list of names",
     SourceEdit: "text is a string, digest is a string or null",
     CopyOrder: "text is a string",
     FitOrder: "fresh is true or false",
     ExportOrder: f"what is a list of {_words(Part)}; format is one of {_words(ExportFormat)}; "
+    f"frame is one of {_words(Frame)}; "
     f"count lies between 1 and {MOST_SAMPLES}; seed is a whole number",
     TellOrder: "slugs is a list of references; told has up (x, -x, y, -y, z, -z or null) and split (off, apart, names "
     "or null)",
@@ -160,7 +165,7 @@ def decode(body: bytes | str, kind: type[Request]) -> Request:
         return msgspec.json.decode(body or b"{}", type=kind)
     except msgspec.ValidationError as error:
         raise Wrong(f"{_SHOULD[kind]} ({error})") from error
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise Wrong(f"the body is no JSON: {error}") from error
 
 

@@ -5,8 +5,18 @@ import { complain } from "../../state/notices";
 import { connected, dimension, procedure, tileOf } from "../../state/studio";
 import { evaluate, onEvaluated } from "../../wire/live";
 import type { Evaluated, MeshMessage, ResidualsMessage } from "../../wire/binary";
-import type { VerdictMessage, DrawingMessage, Problem, Reference, Slug, Value, Values } from "../../wire/messages";
+import type {
+  VerdictMessage,
+  DrawingMessage,
+  Parameter,
+  Problem,
+  Reference,
+  Slug,
+  Value,
+  Values,
+} from "../../wire/messages";
 import { RequestError, requests } from "../../wire/requests";
+import { edit, edited, forgetEdits, redoEdit, undoEdit } from "./edits";
 
 export type Colouring = "plain" | "distance" | "parts";
 export type Shown = MeshMessage | DrawingMessage;
@@ -21,8 +31,6 @@ export const residuals = signal<{ reference: ResidualsMessage | null; replica: R
   reference: null,
   replica: null,
 });
-/** What the author has set by hand; null while everything is as found. */
-export const edited = signal<Values | null>(null);
 export const outcome = signal<Outcome | null>(null);
 export const figures = signal<VerdictMessage | null>(null);
 export const failure = signal<Problem | null>(null);
@@ -45,7 +53,8 @@ export const atLimit = computed(() => new Set(outcome.value?.at_limit ?? referen
 /** Show one pair until the returned function is called. */
 export function open(next: Slug): () => void {
   slug.value = next;
-  for (const empty of [reference, original, replica, outcome, figures, failure, edited]) empty.value = null;
+  for (const empty of [reference, original, replica, outcome, figures, failure]) empty.value = null;
+  forgetEdits();
   residuals.value = { reference: null, replica: null };
   const deaf = onEvaluated(hear);
   const unwatch = watch(next);
@@ -101,19 +110,37 @@ function note(next: Slug): (error: unknown) => void {
 }
 
 function ask(): void {
-  if (slug.value)
-    waiting.value = evaluate(slug.value, edited.value, colouring.value === "distance" && dimension.value === 3);
+  if (!slug.value) return;
+  const coloured = colouring.value === "distance" && dimension.value === 3;
+  waiting.value = evaluate(slug.value, edited.value, beyond(), coloured);
+}
+
+/** Names of the numbers that the author set outside their Ranges. */
+export function beyond(): string[] {
+  return procedure.value.parameters.filter((one) => isBeyond(one, edited.value?.[one.name])).map(({ name }) => name);
+}
+
+export function isBeyond({ low, high }: Parameter, value: Value | undefined): boolean {
+  return low !== null && high !== null && typeof value === "number" && (value < low || value > high);
 }
 
 export function set(name: string, value: Value): void {
-  edited.value = { ...values.value, [name]: value };
+  edit({ ...values.value, [name]: value }, name);
   ask();
 }
 
 /** Back to what was found, or to other parameters. */
 export function reset(to: Values | null = null): void {
-  edited.value = to && { ...values.value, ...to };
+  edit(to && { ...values.value, ...to }, "all");
   ask();
+}
+
+export function undo(): void {
+  if (undoEdit()) ask();
+}
+
+export function redo(): void {
+  if (redoEdit()) ask();
 }
 
 export function resetOne(name: string): void {

@@ -32,8 +32,8 @@ export interface Tile {
   stale: boolean;
   /** fidelity in the run before; by the paper's judge its distance. */
   previous: number | null;
-  /** parameters at an end of their Range. */
-  at_limit: string[];
+  /** parameters whose longer Range would bring it nearer; empty before an explanation. */
+  longer: string[];
   /** null where the reference stands as its replica, or is not explained. */
   pose: Pose | null;
   problem: Problem | null;

@@ -154,6 +154,8 @@ export interface Reference {
   parameters: Values | null;
   active: string[];
   at_limit: string[];
+  /** as in Tile. */
+  longer: string[];
   /** empty while the replica is not measured whole. */
   measures: Measures;
   /** of the reference; the largest first. */

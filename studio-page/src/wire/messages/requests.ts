@@ -6,6 +6,8 @@ import type { Told } from "./detail";
 
 export type Part = "replicas" | "samples" | "report" | "parameters";
 
+export type Frame = "procedure" | "reference";
+
 export type ExportFormat = "glb" | "ply" | "obj" | "stl" | "off";
 
 /** Build a replica and measure it. */
@@ -17,6 +19,8 @@ export interface Evaluate {
   slug: Slug | null;
   /** those left out are as found, or without a slug at their defaults. */
   parameters: Values | null;
+  /** names of numbers that may lie outside their Range; all others take the nearest value in it. */
+  beyond: string[];
   /** whether to send the two surfaces with their distances. */
   residuals: boolean;
 }
@@ -50,7 +54,10 @@ export interface FitOrder {
 /** What to pack. */
 export interface ExportOrder {
   what: Part[];
+  /** of meshes; drawings are SVG. */
   format?: ExportFormat;
+  /** of replicas that are meshes. */
+  frame?: Frame;
   /** of random samples. */
   count?: number;
   /** of random samples. */
