@@ -55,6 +55,34 @@ def test_a_fit_records_them_and_its_report_shows_them(turned, tmp_path):
     assert f'href="{SHEET}"' in (run / "report.html").read_text()
 
 
+def test_what_an_earlier_iteration_found_stays_so(turned):
+    first = sw.fit(seat, turned, QUICK)
+    axes = first.collection["axes"]
+    axes["a"] |= {"up": "-y", "front": "z"}
+    heard = []
+    again = sw.fit(seat, turned, QUICK, heard.append, previous=first)
+    assert again.collection["axes"] == axes
+    assert "axes" not in {event.stage for event in heard}  # no shape was built to find them
+    more = sw.Collection.of(
+        {name: seat().transformed(TURNS[turn]) for name, turn in [*GIVEN.items(), ("d", 9)]}, up="auto"
+    )
+    found = stand(seat, more, QUICK, previous=again)
+    assert found["d"].orientation == Orientation().then(TURNS[9].T)
+    assert found["a"].orientation == Orientation("-y", "z")
+
+
+def test_the_axes_of_a_file_are_those_of_its_objects():
+    two = seat().transformed(TURNS[7])
+    apart = sw.Mesh(
+        np.concatenate([two.vertices, two.vertices + np.array([4, 0, 0])]),
+        np.concatenate([two.faces, two.faces + len(two.vertices)]),
+    )
+    axes = sw.fit(
+        seat, sw.Collection.of({"pair": apart}, up="auto"), sw.Settings(**vars(QUICK) | {"split": "apart"})
+    ).collection["axes"]
+    assert set(axes) == {"pair", "pair/1", "pair/2"} and len({str(each) for each in axes.values()}) == 1
+
+
 def test_an_explanation_takes_the_references_as_the_fit_did(turned):
     iteration = sw.fit(seat, turned, QUICK)
     given = {name: seat(width=0.7 + 0.1 * turn / 24).transformed(TURNS[turn]) for name, turn in GIVEN.items()}

@@ -4,7 +4,7 @@ import pytest
 from shapewright.axes.turns import TURNS
 from shapewright.modelling.solids import box
 from shapewright.references import Collection, Orientation
-from shapewright.references.standing import axes_record, recorded_orientation
+from shapewright.references.standing import axes_record, found_axes, recorded_orientation
 from shapewright.shapes.files import encode
 
 
@@ -71,6 +71,28 @@ def test_what_was_found_is_recorded_and_taken_up_again(folder):
     again = Collection.load(folder).oriented({name: recorded_orientation(each) for name, each in records.items()})
     for before, after in zip(found, again, strict=True):
         np.testing.assert_allclose(after.shape.vertices, before.shape.vertices, atol=1e-12)
+
+
+def test_what_a_run_has_found_stays_so_and_the_author_may_still_change_it(folder):
+    found = Collection.load(folder, up="auto")
+    records = {reference.name: axes_record(reference) for reference in found}
+    records["chair 0.7"] |= {"up": "z", "front": "x"}
+    records["chair 0.9"] |= {"up": "z", "front": "x", "by": "author"}  # which he has taken back since
+    (folder / "shapewright.csv").write_text("path,up,front\nchair 0.8.obj,y,z\n")
+    again = Collection.load(folder, up="auto").stood(recorded=found_axes({"axes": records}))
+    standing = {each.name: (each.orientation, each.axes_by) for each in again}
+    assert standing["chair 0.7"] == (Orientation("z", "x"), "found")
+    assert standing["chair 0.75"] == standing["chair 0.9"] == (FILE, "found")
+    assert standing["chair 0.8"] == (Orientation("y", "z"), "author")
+    assert axes_record(again["chair 0.75"]) == records["chair 0.75"]
+    np.testing.assert_allclose(again["chair 0.75"].shape.vertices, found["chair 0.75"].shape.vertices, atol=1e-12)
+
+
+def test_a_procedure_that_builds_z_up_does_not_lay_down_what_is_found_to_stand():
+    tidy = Collection.of({str(width): chair(width) for width in WIDTHS}, up="auto")
+    assert {reference.orientation for reference in tidy.standing("z")} == {Orientation()}
+    block = Collection.of({"block": box((1, 0.4, 0.6)).mesh()})  # nothing was looked for
+    assert {reference.orientation for reference in block.standing("z")} == {Orientation.of("z")}
 
 
 def test_drawings_have_no_axes_to_find(tmp_path):

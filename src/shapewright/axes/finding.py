@@ -26,7 +26,9 @@ _MOSTLY = 0.8  # share of a procedure's shapes that look the same after a turn, 
 _BETTER = 3.0
 """By how much the logarithm of the likelihood has to be larger without a procedure's shapes than with them, where a
 collection does not look as they do. A guess."""
-_ENOUGH = 20  # shapes of a procedure from which on they are learned from
+SAMPLES = 300
+"""Shapes of a procedure that are learned from. docs/benchmarks.md has other numbers."""
+_ENOUGH = 20  # of them, from which on they are learned from at all
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,11 @@ class Finding:
     has_up: bool
     fronts: int
 
+    @property
+    def sure(self) -> bool:
+        """Whether its up is; else the shape is left as it was given."""
+        return self.up >= _SURE
+
 
 @dataclass(frozen=True, eq=False)
 class Kind:
@@ -60,6 +67,11 @@ class Kind:
         """Learned from shapes that stand right."""
         right = looks.apart[:, 1] <= ALIKE
         return cls(Linear.learned(scaled(looks.features, weights), right), right.mean(axis=0) >= _MOSTLY)
+
+    @classmethod
+    def taught(cls, shapes: Sequence[Mesh], threads: int | None = None) -> Kind | None:
+        """Learned from shapes of a procedure, which stand right; None from too few."""
+        return cls.of(Looks.of(shapes, threads)) if len(shapes) >= _ENOUGH else None
 
 
 def find(
@@ -78,8 +90,7 @@ def find(
         taught: shapes of the procedure that is to replicate them: they stand right. Too few are not learned from.
         threads: one a core by default.
     """
-    kind = Kind.of(Looks.of(taught, threads)) if len(taught) >= _ENOUGH else None
-    return told(Looks.of(shapes, threads), allowed, kind)
+    return told(Looks.of(shapes, threads), allowed, Kind.taught(taught, threads))
 
 
 def told(

@@ -35,6 +35,11 @@ class Looks:
         sides = in_threads(Sides.of, shapes, threads)
         return cls(np.array(in_threads(features, sides, threads)), np.array(in_threads(Sides.apart, sides, threads)))
 
+    @classmethod
+    def joined(cls, parts: Sequence[Looks]) -> Looks:
+        """Of the shapes of all parts, one at least."""
+        return cls(np.concatenate([p.features for p in parts]), np.concatenate([p.apart for p in parts]))
+
     def turned(self, turns: Ints) -> Looks:
         """Of the shapes after each was turned. turns: (N,), of TURNS."""
         rows = np.arange(len(turns))[:, None]

@@ -102,7 +102,7 @@ def fit(
 
             check_explainable(loaded)
         known = suggested_parameters(previous, author.space.names) if previous else None
-        loaded = stand(author, loaded, settings, listen)
+        loaded = stand(author, loaded, settings, listen, earlier)
         print_axes(loaded)
         iteration = iterate(author, loaded, settings, listen, cache_folder(), earlier, known, opening)
     _save(iteration, folder)

@@ -60,7 +60,7 @@ def fit(
             left.
     """
     settings = settings or Settings()
-    references = references if references.taught else stand(procedure, references, settings, progress)
+    references = references if references.taught else stand(procedure, references, settings, progress, previous)
     references = for_procedure(references, procedure)
     with nullcontext(opening.crew) if opening else Workers.of(procedure, settings) as crew:
         first = opening.builds() if opening else []

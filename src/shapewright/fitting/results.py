@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
+from typing import Any
 
 from shapewright.building import Build, Opened
 from shapewright.comparison.grouping import Group
@@ -146,7 +147,7 @@ def recorded(
             "front": references.front,
             "keep": list(references.keep),
             "pictures": references.pictures,
-            "axes": {each.name: axes_record(each) for each in references} if references.up == AUTO else None,
+            "axes": _axes(references) if references.up == AUTO else None,
             "count": len(references),
             "skipped": {printable(path): reason for path, reason in references.skipped.items()},
             "left_out": dict(references.left_out),
@@ -172,3 +173,8 @@ def _error(build: Build, distance: float) -> str | None:
     if build.failure:
         return str(build.failure)
     return "so thin that no view shows it: it cannot be compared" if math.isnan(distance) else None
+
+
+def _axes(references: Collection) -> dict[str, dict[str, Any]]:
+    """By the name of each reference, and of each file that it is an object in, which stands alike."""
+    return {name: axes_record(each) for each in references for name in (each.part_of, each.name) if name}

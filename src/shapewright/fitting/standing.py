@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from shapewright.axes.agreement import Z_UP
+from shapewright.axes.finding import SAMPLES
 from shapewright.axes.turns import TURNS, UPRIGHT
 from shapewright.building import Workers
 from shapewright.prediction.dataset import Dataset
@@ -16,13 +17,12 @@ from shapewright.prediction.lookup import squares
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Notice, Stages
 from shapewright.references import Collection
-from shapewright.references.standing import AUTO
+from shapewright.references.standing import AUTO, found_axes, is_free
 from shapewright.rendering.raster import render
+from shapewright.runs.iteration import Iteration
 from shapewright.settings import Settings
 from shapewright.shapes import Floats, Mesh
 
-SAMPLES = 300
-"""Shapes of the procedure that are learned from. docs/benchmarks.md has other numbers."""
 _LOOKED_AT, _FEWEST = 8, 3
 """References that tell whether they lie: evenly spread over the collection. A single shelf may
 look alike both ways."""
@@ -62,20 +62,29 @@ class Lying:
 
 
 def stand(
-    procedure: Procedure, references: Collection, settings: Settings | None = None, progress: Listener | None = None
+    procedure: Procedure,
+    references: Collection,
+    settings: Settings | None = None,
+    progress: Listener | None = None,
+    previous: Iteration | None = None,
 ) -> Collection:
     """The references as they stand beside shapes of the procedure, where up is "auto"; as they are elsewhere.
 
-    It takes seconds. Raises ProcedureError when the procedure cannot build shapes.
+    Those that an earlier iteration found keep its axes. It takes seconds where there are others. Raises ProcedureError
+    when the procedure cannot build shapes.
     """
     if references.up != AUTO or references.kind is not Mesh:
         return references
     settings, stages = settings or Settings(), Stages(progress)
+    recorded = found_axes(previous.collection) if previous else {}
+    if all(each.name in recorded for each in references if is_free(each)):
+        return references.stood((), settings.workers, recorded)
     vectors = procedure.space.sample(SAMPLES, seed=settings.seed)
     stages.begin("axes", len(vectors))
     with Workers.of(procedure, settings) as crew:
         builds = crew.build(vectors, stages.step, give_up=True)
-    found = references.stood([build.shape for build in builds if isinstance(build.shape, Mesh)], settings.workers)
+    taught = [build.shape for build in builds if isinstance(build.shape, Mesh)]
+    found = references.stood(taught, settings.workers, recorded)
     stages.end()
     return found
 

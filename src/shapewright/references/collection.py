@@ -165,14 +165,21 @@ class Collection:
         shapes = [(r, Views((view_of(r.shape),)) if isinstance(r.shape, Drawing) else r.shape) for r in self]
         return replace(self, references=tuple(replace(r, shape=shape) for r, shape in shapes), pictures="views")
 
-    def stood(self, taught: Sequence[Mesh] = (), threads: int | None = None) -> Collection:
+    def stood(
+        self,
+        taught: Sequence[Mesh] = (),
+        threads: int | None = None,
+        recorded: Mapping[str, Mapping[str, Any]] | None = None,
+    ) -> Collection:
         """The collection with up and front of its meshes found, but of those whose author tells them.
 
         They are found by what the shapes look like, by what most of them share, and by shapes of a procedure that
-        stand right (``taught``). What is not sure stays as the file or its format has it. ``Reference.finding`` says
-        what was found, ``Reference.orientation`` which axes of the file these are.
+        stand right (``taught``). What is not sure stays as the file or its format has it. What a run has found before
+        (``recorded``) stays so. ``Reference.finding`` says what was found, ``Reference.orientation``
+        which axes of the file these are.
         """
-        return replace(self, references=stood(self.references, self.front, taught, threads), taught=bool(taught))
+        found = stood(self.references, self.front, taught, threads, recorded)
+        return replace(self, references=found, taught=bool(taught or recorded))
 
     def oriented(self, orientations: Mapping[str, Orientation]) -> Collection:
         """The collection with these orientations of its files, by the names of references."""

@@ -88,8 +88,13 @@ class Reference:
         return replace(self, extent=side / (metres or self.unit or 1.0) if self.unit else side)
 
     def standing(self, up: str) -> Reference:
-        """Turned for this axis of its file to point up, where neither its author nor its format says which one does."""
+        """Turned for this axis of its file to point up, where neither its author nor its format says which one does.
+
+        One that is found to stand right as it is stays so.
+        """
         if isinstance(self.shape, Drawing | Views) or self.axes_by != "default" or self.orientation != Orientation():
+            return self
+        if self.finding is not None and self.finding.sure:
             return self
         orientation = Orientation.of(up)
         transform = Transform(tuple(orientation.matrix @ self.transform.centre), self.transform.scale)

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapewright.references.orientation import Orientation
+from shapewright.references.orientation import AxesBy, Orientation
 from shapewright.references.reference import Reference
 from shapewright.shapes import Mesh
+
+if TYPE_CHECKING:
+    from shapewright.axes.finding import Finding, Kind
+    from shapewright.axes.looks import Looks
 
 AUTO = "auto"
 """In place of an axis: it is to be found."""
@@ -27,32 +31,84 @@ def told(up: str, front: str | None) -> tuple[bool, str | None]:
 
 
 def stood(
-    references: Sequence[Reference], front: str | None = None, taught: Sequence[Mesh] = (), threads: int | None = None
+    references: Sequence[Reference],
+    front: str | None = None,
+    taught: Sequence[Mesh] = (),
+    threads: int | None = None,
+    recorded: Mapping[str, Mapping[str, Any]] | None = None,
 ) -> tuple[Reference, ...]:
     """The references as they are found to stand: meshes of which the author does not tell up and front.
 
     front: the axis of the files that points to the front, where the author says that. taught: shapes of the procedure
-    that is to replicate them; they decide before all else. Points and drawings stay as they are.
+    that is to replicate them; they decide before all else. recorded: those that stay as a run found them, see
+    ``found_axes``. Points and drawings stay as they are.
     """
-    from shapewright.axes.finding import find
-    from shapewright.axes.turns import AS_IT_IS, INVERSE, TURNS
+    from shapewright.axes.finding import Kind
+    from shapewright.axes.looks import Looks
 
-    free = [i for i, each in enumerate(references) if each.axes_by != "author" and isinstance(each.shape, Mesh)]
-    if not free:
-        return tuple(references)
-    given = list(references)
+    known = recorded or {}
+    given = [_as_given(each) for each in references]
+    free = [i for i, each in enumerate(given) if is_free(each)]
+    if any(given[i].name not in known for i in free):
+        looks = Looks.of([shape for i in free if isinstance(shape := given[i].shape, Mesh)], threads)
+        findings = found([given[i].orientation for i in free], looks, front, Kind.taught(taught, threads))
+        for i, finding in zip(free, findings, strict=True):
+            given[i] = turned(given[i], finding)
     for i in free:
-        if (before := given[i].finding) is not None:
-            given[i] = given[i].after(TURNS[INVERSE[before.turn]])
+        if given[i].name in known:
+            given[i] = recalled(given[i], known[given[i].name])
+    return tuple(given)
+
+
+def is_free(reference: Reference) -> bool:
+    """Whether its up and front may be found: those of a mesh whose author does not tell them."""
+    return reference.axes_by != "author" and isinstance(reference.shape, Mesh)
+
+
+def found(given: Sequence[Orientation], looks: Looks, front: str | None, kind: Kind | None) -> list[Finding]:
+    """How each shape stands, by what is seen of it as it is given.
+
+    given: the axes of their files that point up and to the front as they are. front, kind: see ``stood``.
+    """
+    from shapewright.axes.finding import told as tell
+    from shapewright.axes.turns import TURNS
+
     allowed = None
     if front is not None:
-        allowed = np.array([[given[i].orientation.then(turn).front == front for turn in TURNS] for i in free])
-    shapes = [shape for i in free if isinstance(shape := given[i].shape, Mesh)]
-    for i, finding in zip(free, find(shapes, allowed, taught, threads), strict=True):
-        turned = given[i].after(TURNS[finding.turn]) if finding.turn != AS_IT_IS else given[i]
-        by = "found" if finding.turn != AS_IT_IS else "default" if given[i].axes_by == "found" else given[i].axes_by
-        given[i] = replace(turned, axes_by=by, finding=finding)
-    return tuple(given)
+        allowed = np.array([[axes.then(turn).front == front for turn in TURNS] for axes in given])
+    return tell(looks, allowed, kind)
+
+
+def _as_given(reference: Reference) -> Reference:
+    """Without what was found before."""
+    from shapewright.axes.turns import INVERSE, TURNS
+
+    if (before := reference.finding) is None:
+        return reference
+    by: AxesBy = "default" if reference.axes_by == "found" else reference.axes_by
+    return replace(reference.after(TURNS[INVERSE[before.turn]]), axes_by=by, finding=None)
+
+
+def turned(reference: Reference, finding: Finding) -> Reference:
+    """A reference as it is given, turned as it was found to stand."""
+    from shapewright.axes.turns import AS_IT_IS, TURNS
+
+    if finding.turn == AS_IT_IS:
+        return replace(reference, finding=finding)
+    return replace(reference.after(TURNS[finding.turn]), axes_by="found", finding=finding)
+
+
+def recalled(reference: Reference, record: Mapping[str, Any]) -> Reference:
+    """A reference as a record has it, one of ``found_axes``."""
+    from shapewright.axes.finding import Finding
+    from shapewright.axes.turns import turn_index
+
+    given, orientation = _as_given(reference), recorded_orientation(record)
+    finding = None
+    if "sure_up" in record:
+        turn = turn_index(orientation.matrix @ given.orientation.matrix.T)
+        finding = Finding(turn, record["sure_up"], record["sure_front"], record["has_up"], record["fronts"])
+    return replace(given.stood(orientation), axes_by=record["by"], finding=finding)
 
 
 def axes_record(reference: Reference) -> dict[str, Any]:
@@ -63,6 +119,15 @@ def axes_record(reference: Reference) -> dict[str, Any]:
     found = asdict(reference.finding)
     sure = {"sure_up": round(found["up"], 3), "sure_front": round(found["front"], 3)}
     return {**axes, **sure, "has_up": found["has_up"], "fronts": found["fronts"]}
+
+
+def found_axes(collection: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
+    """The axes that a run found, by name, in what it recorded of its collection.
+
+    Those that the author told are none of them: what counts is what he tells now.
+    """
+    axes: Mapping[str, Mapping[str, Any]] = collection.get("axes") or {}
+    return {name: record for name, record in axes.items() if record["by"] != "author"}
 
 
 def recorded_orientation(record: Mapping[str, Any]) -> Orientation:
