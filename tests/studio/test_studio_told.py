@@ -46,8 +46,8 @@ def ups(running: Studio) -> list[str]:
 
 def test_references_stand_as_told_at_once_and_in_the_next_fit_until_that_is_taken_back(running: Studio) -> None:
     first, before = running.get("/api/references/box-1"), picture(running, "box-1")
-    assert first["told"] == {"up": None, "split": None}
-    told = {"up": "z", "split": None}
+    assert first["told"] == {"up": None, "front": None, "split": None}
+    told = {"up": "z", "front": None, "split": None}
     running.send("PATCH", "/api/references", {"slugs": ["box-1", "box-2"], "told": told})
     assert picture(running, "box-1") != before
     turned = running.get("/api/references/box-1")
@@ -85,7 +85,9 @@ def test_an_author_says_which_axis_points_up_of_one_and_of_all_that_are_shown(ru
         for field in ("Up", "Objects"):
             visit.until(f"document.querySelector(\"{FIELD.format(field)}\").value !== 'as all'")
             page.select_option(FIELD.format(field), "as all")
-        running.wait_for(lambda s: running.get("/api/references/box-1")["told"] == {"up": None, "split": None})
+        running.wait_for(
+            lambda s: running.get("/api/references/box-1")["told"] == {"up": None, "front": None, "split": None}
+        )
         assert ups(running) == ["y", "z", "z"]
         visit.end()
 

@@ -10,6 +10,7 @@ import { plural } from "../ui/numbers";
 import { at, focusOn, move } from "./focus";
 import { GroupCard } from "./group";
 import { Asking } from "./asking";
+import { FoundAxes } from "./axes";
 import { replicatedOpen, filter, leafed, search, searching, sections, toggleGroup } from "./order";
 import type { Section } from "./order";
 import { TileCard } from "./tile";
@@ -33,6 +34,7 @@ export function CollectionView() {
             procedure comes nearest to it.
           </p>
         )}
+        <FoundAxes />
         {filter.value === "all" && !searching.value && <Asking />}
         {sections.value.length === 0 ? <NothingFound /> : <Sections />}
         {skipped.length > 0 && (

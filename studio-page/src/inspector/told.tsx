@@ -1,8 +1,8 @@
-/** What the author says of a file alone: which of its axes points up, and whether it holds several objects. */
+/** What the author says of a file alone: which of its axes point up and to the front, and whether it holds several objects. */
 
 import { leafed } from "../collection/order";
 import { complain } from "../state/notices";
-import { dimension } from "../state/studio";
+import { dimension, tileOf } from "../state/studio";
 import { Button, Select } from "../ui/controls";
 import { requests } from "../wire/requests";
 import type { Slug, Told } from "../wire/messages";
@@ -10,7 +10,6 @@ import { reference } from "./pair/session";
 
 const AXES = ["x", "-x", "y", "-y", "z", "-z"] as const;
 const AS_ALL = "as all";
-const UP = [{ value: AS_ALL, label: "as the others" }, ...AXES.map((axis) => ({ value: axis, label: axis }))];
 const SPLIT = [
   { value: AS_ALL, label: "as the others" },
   { value: "off", label: "one shape" },
@@ -33,15 +32,35 @@ export function ToldOf() {
       show(open.told);
     });
   };
+  const stands = tileOf(open.slug)?.axes;
+  const found = stands?.by === "author" ? null : stands;
+  const axes = (which: "up" | "front") => [
+    { value: AS_ALL, label: found ? `as found: ${found[which]}` : "as the others" },
+    ...AXES.map((axis) => ({ value: axis, label: axis })),
+  ];
+  // A front alone would leave the up as the file has it, and not as it was found.
+  const sayAxis = (which: "up" | "front", axis: string) =>
+    say([open.slug], {
+      ...open.told,
+      ...(which === "front" && axis !== AS_ALL && found ? { up: open.told.up ?? found.up } : {}),
+      [which]: axis === AS_ALL ? null : axis,
+    });
   return (
     <section class="told" data-told>
       <h3>Its file</h3>
       <Select
         label="Up"
         title="The axis of the file that points up"
-        options={UP}
+        options={axes("up")}
         value={open.told.up ?? AS_ALL}
-        onChange={(up) => say([open.slug], { ...open.told, up: up === AS_ALL ? null : (up as Told["up"]) })}
+        onChange={(axis) => sayAxis("up", axis)}
+      />
+      <Select
+        label="Front"
+        title="The axis of the file that points to the front"
+        options={axes("front")}
+        value={open.told.front ?? AS_ALL}
+        onChange={(axis) => sayAxis("front", axis)}
       />
       <Select
         label="Objects"

@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import pytest
 import trimesh
+from msgspec.structs import replace as replace_struct
 
 from shapewright.references import Collection
 from shapewright.references.manifests.folder_tables import TABLE
@@ -31,7 +32,7 @@ def test_what_is_told_is_in_the_table_that_every_command_reads_and_is_taken_back
     says = Told(up="z", split="apart")
     tell(project, sources(project).values(), says)
     table = project.folder / "references" / TABLE
-    assert table.read_text() == "path,up,split\na.stl,z,apart\nb.stl,z,apart\n"
+    assert table.read_text() == "path,up,front,split\na.stl,z,,apart\nb.stl,z,,apart\n"
     assert [told(source) for source in sources(project).values()] == [says, says]
     assert [each.orientation.up for each in Collection.load(project.origin.source)] == ["z", "z"]
     tell(project, [sources(project)["a"]], NOTHING)
@@ -52,6 +53,25 @@ def test_nothing_is_written_where_another_place_says_it_or_outside_the_project(p
 
 def test_an_up_on_the_axis_of_the_front_is_refused_before_anything_is_written(project):
     facing = replace(project, origin=replace(project.origin, front="z"))
-    with pytest.raises(ProjectError, match="up -z"):
+    with pytest.raises(ProjectError, match="up='-z' and front='z' are parallel"):
         tell(facing, sources(facing).values(), Told(up="-z"))
     assert not list(project.folder.rglob(TABLE))
+
+
+def test_a_front_is_told_too_and_stays_in_a_table_that_has_it(project):
+    table = project.folder / "references" / TABLE
+    table.write_text("path,up,front\na.stl,z,x\n")
+    source = sources(project)["a"]
+    assert told(source) == Told(up="z", front="x")
+    tell(project, [source], replace_struct(told(source), front="-y"))
+    first = next(iter(Collection.load(project.origin.source)))
+    assert (first.orientation.up, first.orientation.front) == ("z", "-y")
+    with pytest.raises(ProjectError, match="a: up='z' and front='-z' are parallel"):
+        tell(project, [source], Told(up="z", front="-z"))
+
+
+def test_where_axes_are_to_be_found_what_is_told_stands_alone(project):
+    finding = replace(project, origin=replace(project.origin, up="auto", front="z"))
+    tell(finding, sources(finding).values(), Told(up="z"))
+    listed = listing(finding.origin)
+    assert listed.free == set() and {one.orientation.front for one in listed.sources.values()} == {"-y"}

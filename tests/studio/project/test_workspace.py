@@ -97,8 +97,3 @@ def test_a_binary_procedure_is_read_as_a_line_about_it_and_never_written(tmp_pat
     assert project.read_source()[0].startswith("9 bytes, SHA-256 ")
     with pytest.raises(ProjectError, match=r"model.blend is no text"):
         project.write_source("other", None)
-
-
-def test_axes_that_are_to_be_found_are_refused_with_the_way_out(project):
-    with pytest.raises(ProjectError, match="the studio finds no axes; shapewright check says"):
-        Project.of(project.folder, up="auto")

@@ -58,20 +58,21 @@ def try_build(
 def serve(requests: BinaryIO, answers: BinaryIO) -> None:
     """Load the procedure that the first request names and build the shape of every later one, until there are no more.
 
-    Requests and answers are pickled payloads; a message "working" asks the other side for patience.
+    A request "sample" asks for parameters of many shapes. Requests and answers are pickled payloads; a message
+    "working" asks the other side for patience.
     """
 
-    def answer(value: Version | Built | Failure) -> None:
+    def answer(value: Version | Built | Failure | list[Parameters]) -> None:
         write_frame(answers, "answer", pickle.dumps(value))
 
     def working() -> None:
         write_frame(answers, "working")
 
     working()
-    received = _received(requests)
-    if received is None:
+    first = _received(requests)
+    if first is None:
         return
-    target, sys.path[:], limits = received
+    target, sys.path[:], limits = first[1]
     try:
         with time_limit(LOADING_SECONDS):
             procedure = load_procedure(target)
@@ -85,14 +86,28 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
     limit_memory(limits.memory_mb)
     limits = replace(limits, seconds=procedure.seconds or limits.seconds)
     answer(version)
-    while (asked := _received(requests)) is not None:
-        values, beyond = asked
-        answer(try_build(procedure, values, limits, working, beyond))
+    while (received := _received(requests)) is not None:
+        kind, asked = received
+        if kind == "sample":
+            answer(_sample(procedure, *asked))
+        else:
+            values, beyond = asked
+            answer(try_build(procedure, values, limits, working, beyond))
 
 
-def _received(requests: BinaryIO) -> Any:
+def _received(requests: BinaryIO) -> tuple[str, Any] | None:
     frame = read_frame(requests)
-    return pickle.loads(frame[1]) if frame else None
+    return (frame[0], pickle.loads(frame[1])) if frame else None
+
+
+def _sample(procedure: Procedure, count: int, seed: int) -> list[Parameters] | Failure:
+    try:
+        with time_limit(LOADING_SECONDS):
+            return procedure.space.sample(count, seed=seed)
+    except TimeLimit as error:
+        return Failure("time", describe(error), place_of(error, procedure.path))
+    except ValueError as error:  # a `when` failed
+        return Failure("raised", str(error), procedure.place)
 
 
 def _version(procedure: Procedure) -> Version:

@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
+from shapewright.axes.finding import Finding
 from shapewright.procedures import Facts
 from shapewright.references.errors import UnreadableError
 from shapewright.references.readers.formats import CLOUDS, MESHES
 from shapewright.references.readers.pictures import KINDS
 from shapewright.references.reading import Readers
 from shapewright.references.reference import Reference
+from shapewright.references.standing import is_free, recalled, turned
 from shapewright.references.views import as_views
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape, Shape
 from shapewright.storage import remove_leftovers, whole_file
 from shapewright.studio.project.listing import PICTURE, PICTURES, Listing, kept_picture
+from shapewright.studio.wire.collection import Axes
 from shapewright.survey.preparation import without_extras
 
 Item = TypeVar("Item")
+Stance: TypeAlias = Finding | Mapping[str, Any]
+"""How a reference stands: as it was found to, or as a run recorded that."""
 _MEMORY = 32 * 2**20
 
 
@@ -54,16 +59,40 @@ class Gallery:
     cache: a folder for their pictures, None for none.
     readers: read them.
     facts: of the procedure: its axes are those of files that say nothing of theirs, and sizes may count.
+    stances: how references stand where that was to be found, by slug: a finding, or what a run recorded.
     """
 
-    def __init__(self, listed: Listing, cache: Path | None, readers: Readers, facts: Facts | None = None) -> None:
+    def __init__(
+        self,
+        listed: Listing,
+        cache: Path | None,
+        readers: Readers,
+        facts: Facts | None = None,
+        stances: Mapping[str, Stance] | None = None,
+    ) -> None:
         self.listed = listed
         self.facts = facts or Facts()
+        self.stances = stances or {}
         self._readers = readers
         self._cache = cache
         if cache:  # once, not with every picture: the folder holds those of all projects
             remove_leftovers(cache / PICTURES)
         self._shelf: Shelf[Reference] = Shelf(_MEMORY, lambda reference: shape_bytes(reference.shape))
+
+    @property
+    def recorded(self) -> dict[str, Stance]:
+        """How a run found references to stand."""
+        return {slug: stance for slug, stance in self.stances.items() if not isinstance(stance, Finding)}
+
+    @property
+    def unsettled(self) -> set[str]:
+        """References of which no run says how they stand, where that is to be found."""
+        return self.listed.free - self.recorded.keys()
+
+    @property
+    def uncertain(self) -> set[str]:
+        """References that do not stand as a picture that is kept may show them."""
+        return self.unsettled if self.facts.up == "y" else {*self.listed.sources}
 
     def __getitem__(self, slug: str) -> Reference:
         """Without what stands around its shape, as fits leave it out.
@@ -73,6 +102,14 @@ class Gallery:
         known = self._shelf.get(slug)
         if known:
             return known
+        read, stance = self.given(slug), self.stances.get(slug)
+        if stance is not None and is_free(read):
+            read = turned(read, stance) if isinstance(stance, Finding) else recalled(read, stance)
+        read = without_extras(read.standing(self.facts.up) if self.facts.up != "y" else read, Settings())
+        return self._shelf.put(slug, read.sized(self.facts.metres) if self.facts.size == "given" else read)
+
+    def given(self, slug: str) -> Reference:
+        """As its file holds it. Raises as ``[]`` does."""
         source = self.listed.sources[slug]
         (read,) = self._readers.read([source])
         if isinstance(read, UnreadableError):
@@ -80,8 +117,14 @@ class Gallery:
             (read,) = self._readers.read(as_views([source]))  # a photograph is no drawing
             if isinstance(read, UnreadableError):
                 raise reason
-        read = without_extras(read.standing(self.facts.up) if self.facts.up != "y" else read, Settings())
-        return self._shelf.put(slug, read.sized(self.facts.metres) if self.facts.size == "given" else read)
+        return read
+
+    def axes(self, slug: str) -> Axes | None:
+        """Which axes of its file point up and to the front, where these are to be found. Raises as ``[]`` does."""
+        reference = self[slug]
+        if not self.listed.origin.auto or not isinstance(reference.shape, Mesh | Points):
+            return None
+        return Axes.of(reference.orientation, reference.axes_by)
 
     def view(self, slug: str) -> Reference:
         """The same reference as an object in a picture. Raises as ``[]`` does."""
@@ -100,9 +143,15 @@ class Gallery:
         return None
 
     def picture(self, slug: str) -> bytes:
-        """PNG of a reference. As its file has it, it is kept in the cache from now on. Raises as ``[]`` does."""
-        drawn = thumbnail(self[slug].shape, PICTURE)
-        kept = kept_picture(self._cache, self.listed.sources[slug]) if self._cache and self.facts.up == "y" else None
+        """PNG of a reference. Raises as ``[]`` does.
+
+        As its file has it, or as it was found to stand, it is kept in the cache from now on.
+        """
+        reference = self[slug]
+        drawn = thumbnail(reference.shape, PICTURE)
+        found, kept = reference.orientation if slug in self.stances else None, None
+        if self._cache and (found or self.facts.up == "y"):
+            kept = kept_picture(self._cache, self.listed.sources[slug], found)
         if kept:
             kept.parent.mkdir(parents=True, exist_ok=True)
             with whole_file(kept) as partial:

@@ -10,7 +10,7 @@ from shapewright.processes import Limits
 from shapewright.settings import Align
 from shapewright.studio.project.listing import Origin
 from shapewright.studio.wire.answers import DrawingMessage, FailedMessage, VerdictMessage
-from shapewright.studio.wire.collection import Parameter
+from shapewright.studio.wire.collection import Axes, Parameter
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.requests import Evaluate
 from shapewright.studio.wire.values import Slug, Values
@@ -27,6 +27,7 @@ class References(BenchMessage, frozen=True):
     cache: str | None  # a folder for pictures and descriptors
     align: Align  # see Settings
     seed: int  # see Settings
+    recorded: dict[Slug, dict[str, Any]]  # axes that a run found, see ``found_axes``; where others are found they stay
 
 
 class Pictures(BenchMessage, frozen=True):
@@ -91,6 +92,7 @@ class Drawn(BenchMessage, frozen=True):
     """A reference was drawn; the payload is a PNG."""
 
     slug: Slug
+    axes: Axes | None  # null where nobody looks for them
 
 
 class Unreadable(BenchMessage, frozen=True):

@@ -7,7 +7,7 @@ first; pictures and sweeps over the whole collection are done in between, shape 
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -24,9 +24,10 @@ from shapewright.search.sizes import likeness
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Points, Shape, Views
 from shapewright.studio.bench import messages, shape_messages
-from shapewright.studio.bench.gallery import Gallery, Shelf, in_turn, shape_bytes
+from shapewright.studio.bench.gallery import Gallery, Shelf, Stance, shape_bytes
 from shapewright.studio.bench.inbox import Inbox
 from shapewright.studio.bench.residual_colours import ResidualColours
+from shapewright.studio.bench.standing import Standing
 from shapewright.studio.bench.sweep import Sweep
 from shapewright.studio.bench.workshop import Broken, Workshop
 from shapewright.studio.project.listing import Listing, listing
@@ -53,7 +54,9 @@ class Bench:
         self._settings = Settings()
         self._root = Path()
         self._first: list[Slug] = []
+        self._wanted: dict[Slug, None] = {}  # of which the pictures are still to be drawn
         self._tasks: dict[str, Iterator[None]] = {}
+        self._standing = Standing()
 
     def run(self) -> None:
         """Serve; tasks are moved on while no request waits."""
@@ -66,10 +69,7 @@ class Bench:
                 case messages.References():
                     self._list(request)
                 case messages.Pictures():
-                    turned = self._gallery.facts.up != "y"  # none that is kept stands so
-                    self._tasks["pictures"] = self._draw(
-                        list(self._gallery.listed.sources) if turned else request.slugs
-                    )
+                    self._want({*request.slugs, *self._gallery.uncertain})
                 case messages.First():
                     self._first = request.slugs
                 case messages.Load():
@@ -105,20 +105,46 @@ class Bench:
             listed = listing(request.origin)
         except CollectionError:  # the server lists the references too, and reports it to the author
             listed = Listing({}, {})
-        self._gallery = Gallery(listed, self._cache, self._readers, self._gallery.facts)
+        self._gallery = Gallery(listed, self._cache, self._readers, self._gallery.facts, request.recorded)
+        self._wanted = {}
+        self._look_for_axes()
 
-    def _stand(self, facts: Facts) -> None:
-        """Have the references stand as a procedure with these facts builds."""
+    def _stand(self, facts: Facts, stances: Mapping[Slug, Stance]) -> None:
+        """Have the references stand as a procedure with these facts builds, and as they were found to."""
         before = self._gallery
-        self._gallery = Gallery(before.listed, self._cache, self._readers, facts)
+        self._gallery = Gallery(before.listed, self._cache, self._readers, facts, stances)
         self._targets = Shelf(_MEMORY, _bytes)
-        if facts.up != before.facts.up:
-            self._tasks["pictures"] = self._draw(list(before.listed.sources))
+        changed = [slug for slug in before.listed.sources if stances.get(slug) != before.stances.get(slug)]
+        self._want(before.listed.sources if facts.up != before.facts.up else changed)
 
-    def _draw(self, slugs: list[Slug]) -> Iterator[None]:
-        for slug in in_turn([slug for slug in slugs if slug in self._gallery.listed.sources], lambda: self._first):
+    def _look_for_axes(self) -> None:
+        """Before all else that is done between requests: it depends on them."""
+        self._tasks.pop("axes", None)
+        if self._gallery.unsettled:
+            self._tasks = {"axes": self._find_axes(), **self._tasks}
+
+    def _find_axes(self) -> Iterator[None]:
+        stances = yield from self._standing.find(self._gallery, self._workshop, self._settings.seed)
+        self._stand(self._gallery.facts, stances)
+
+    @property
+    def _references(self) -> Gallery:
+        """The references, once it is known how they stand."""
+        while "axes" in self._tasks:
+            self._advance("axes")
+        return self._gallery
+
+    def _want(self, slugs: Collection[Slug]) -> None:
+        self._wanted |= dict.fromkeys(slug for slug in self._gallery.listed.sources if slug in slugs)
+        self._tasks.setdefault("pictures", self._draw())
+
+    def _draw(self) -> Iterator[None]:
+        while self._wanted:
+            slug = next((seen for seen in self._first if seen in self._wanted), None) or next(iter(self._wanted))
+            del self._wanted[slug]
             try:
-                self._send(messages.Drawn(slug=slug), self._gallery.picture(slug))
+                picture, axes = self._gallery.picture(slug), self._gallery.axes(slug)
+                self._send(messages.Drawn(slug=slug, axes=axes), picture)
             except (UnreadableError, ValueError) as error:
                 self._send(messages.Unreadable(slug=slug, reason=str(error)))
             yield
@@ -132,8 +158,11 @@ class Bench:
         except Broken as error:
             self._send(messages.Unusable(load=request.load, problem=error.problem))
         else:
+            other = version.facts.up != self._gallery.facts.up
             if version.facts != self._gallery.facts:
-                self._stand(version.facts)
+                self._stand(version.facts, self._gallery.stances)
+            if other or not self._standing.taught:
+                self._look_for_axes()
             space, defaults = version.parameters, version.defaults
             self._send(messages.Loaded(load=request.load, name=version.name, parameters=space, defaults=defaults))
 
@@ -144,11 +173,14 @@ class Bench:
                 *looked_at, self._root, self._workshop, self._unlike, self._measure, self._send, request.least
             ).run()
 
-    def _target(self, slug: Slug) -> Target | None:
-        """None for a reference that is not there or cannot be read."""
+    def _target(self, slug: Slug, view: bool = False) -> Target | None:
+        """None for a reference that is not there or cannot be read. view: a picture as one of an object."""
+        key = f"{slug} in view" if view else slug
         try:
-            known = self._targets.get(slug)
-            return known or self._targets.put(slug, target_of(self._gallery[slug].shape, self._settings, self._cache))
+            if known := self._targets.get(key):
+                return known
+            shape = self._gallery.view(slug).shape if view else self._references[slug].shape
+            return self._targets.put(key, target_of(shape, self._settings, None if view else self._cache))
         except (KeyError, UnreadableError):
             return None
 
@@ -156,7 +188,7 @@ class Bench:
         """The target of a replica: pictures are views of an object to a mesh."""
         target = self._target(slug)
         if target and isinstance(target.shape, Drawing) and isinstance(replica, Mesh):
-            return self._view(slug)
+            return self._target(slug, view=True)
         return target
 
     def _unlike(self, slug: Slug, replica: Shape) -> str | None:
@@ -172,18 +204,8 @@ class Bench:
 
     def _same(self, slug: Slug, replica: Shape) -> float:
         """How like the sizes of reference and replica are; 1 where proportions count alone."""
-        extent = self._gallery[slug].extent
+        extent = self._references[slug].extent
         return likeness(replica, extent) if extent else 1.0
-
-    def _view(self, slug: Slug) -> Target | None:
-        """The target of a picture as one of an object; None for one that cannot be read so."""
-        try:
-            known = self._targets.get(f"{slug} in view")
-            return known or self._targets.put(
-                f"{slug} in view", target_of(self._gallery.view(slug).shape, self._settings)
-            )
-        except (KeyError, UnreadableError):
-            return None
 
     def _evaluate(self, client: int, request: Evaluate) -> None:
         """Answer in steps; the later ones are left out when something newer waits."""
@@ -236,7 +258,7 @@ class Bench:
         message: About | DrawingMessage | None = None
         payload, wrong = b"", None
         try:
-            reference = self._gallery[request.slug]
+            reference = self._references[request.slug]
             shape = reference.shape
             if request.what == "about":
                 message = shape_messages.about(reference)

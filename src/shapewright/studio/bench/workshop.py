@@ -94,6 +94,25 @@ class Workshop:
 
         beyond: names of numbers that may lie outside their Ranges.
         """
+        self._ask("build", (dict(values), tuple(beyond)))
+        patience = 1.25 * self._limits.seconds + 0.5
+        answer = self._wait(patience, patience) or Failure.of(too_long(self._limits))
+        if isinstance(answer, Built):
+            return answer
+        self._stop()
+        return None if self.interrupt.is_set() else Built(Build(dict(values), None, answer))
+
+    def sample(self, count: int, seed: int) -> list[Parameters]:
+        """Parameters of random shapes; none when that was interrupted or failed. Raises Broken as ``build`` does."""
+        self._ask("sample", (count, seed))
+        answer = self._wait(_PATIENCE, _PATIENCE)
+        if isinstance(answer, list):
+            return answer
+        self._stop()
+        return []
+
+    def _ask(self, kind: str, value: object) -> None:
+        """Send a request to the builder, which is started where it is not there."""
         assert self._path is not None
         if self._child is None:
             try:
@@ -101,13 +120,7 @@ class Workshop:
             except ProcedureError as error:
                 raise Broken(of_error(error, "load", self._path.parent)) from error
         assert self._child is not None
-        self._child.send("build", pickle.dumps((dict(values), tuple(beyond))))
-        patience = 1.25 * self._limits.seconds + 0.5
-        answer = self._wait(patience, patience) or Failure.of(too_long(self._limits))
-        if isinstance(answer, Built):
-            return answer
-        self._stop()
-        return None if self.interrupt.is_set() else Built(Build(dict(values), None, answer))
+        self._child.send(kind, pickle.dumps(value))
 
     def close(self) -> None:
         """Give the procedure up."""

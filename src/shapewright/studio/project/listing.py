@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
+from shapewright.references.orientation import Orientation
 from shapewright.references.readers.formats import CLOUDS, MESHES
 from shapewright.references.sources import Source, find
+from shapewright.references.standing import told
 from shapewright.storage import file_names
 
 PICTURE = 256
@@ -25,10 +27,15 @@ class Origin:
     """Where the references are."""
 
     source: str  # a folder, file or pattern
-    up: str = "y"  # axis of the files
-    front: str | None = None  # axis of the files; None for the usual one
+    up: str = "y"  # axis of the files; "auto" where it is to be found
+    front: str | None = None  # axis of the files; None for the usual one, or where it is to be found
     confine: str | None = None  # no file may lie outside this folder, links followed; None: the author named the source
     keep: tuple[str, ...] = ()  # what is left in scans
+
+    @property
+    def auto(self) -> bool:
+        """Whether up and front are to be found."""
+        return told(self.up, self.front)[0]
 
 
 @dataclass(frozen=True)
@@ -37,6 +44,23 @@ class Listing:
 
     sources: Mapping[str, Source]
     skipped: Mapping[Path, str]
+    origin: Origin = field(default_factory=lambda: Origin(""))
+
+    @property
+    def free(self) -> set[str]:
+        """Slugs of the references whose up and front are to be found: their author does not tell them."""
+        return {slug for slug, one in self._solid.items() if not one.by_author}
+
+    @property
+    def told(self) -> dict[str, Orientation]:
+        """What the author tells of the others, by slug."""
+        return {slug: one.orientation for slug, one in self._solid.items() if one.by_author}
+
+    @property
+    def _solid(self) -> dict[str, Source]:
+        """Those that have an up and a front to be found."""
+        sources = self.sources.items() if self.origin.auto else ()
+        return {slug: one for slug, one in sources if one.path.suffix.lower() in MESHES}
 
     @property
     def dimension(self) -> Literal[2, 3]:
@@ -47,7 +71,8 @@ class Listing:
 
 def listing(origin: Origin) -> Listing:
     """The references of a source, unread. Raises CollectionError as ``find`` does."""
-    sources = find([origin.source], origin.up, origin.front, origin.keep)
+    up, front = ("y", None) if origin.auto else (origin.up, origin.front)
+    sources = find([origin.source], up, front, origin.keep)
     home = Path(origin.confine).resolve() if origin.confine else None
     skipped = {one.place: one.refusal for one in sources if one.refusal}
     skipped |= {one.place: "left out by the manifest" for one in sources if one.switches.leave_out}
@@ -56,16 +81,23 @@ def listing(origin: Origin) -> Listing:
             skipped[one.place] = _OUTSIDE
     inside = [source for source in sources if source.place not in skipped]
     slugs = file_names(tuple(source.name for source in inside))
-    return Listing({slugs[source.name]: source for source in inside}, skipped)
+    return Listing({slugs[source.name]: source for source in inside}, skipped, origin)
 
 
-def kept_picture(cache: Path, source: Source) -> Path | None:
-    """Where the thumbnail of a file, as it is now, is kept or is to be kept; None when the file is not there."""
+def version_of(source: Source, *more: object) -> str | None:
+    """A name for a file as it is now, and for more that matters; None when the file is not there."""
     try:
         state = source.path.stat()
     except OSError:
         return None
-    stands = (source.orientation, source.keep)
-    named = (source.path.resolve(), state.st_mtime_ns, state.st_size, *stands, PICTURE, _PICTURE_FORMAT)
-    digest = hashlib.blake2b(repr(named).encode(), digest_size=16).hexdigest()
-    return cache / PICTURES / f"{digest}.png"
+    read = (source.path.resolve(), state.st_mtime_ns, state.st_size, source.orientation, source.keep)
+    return hashlib.blake2b(repr((*read, *more)).encode(), digest_size=16).hexdigest()
+
+
+def kept_picture(cache: Path, source: Source, found: Orientation | None = None) -> Path | None:
+    """Where the thumbnail of a file, as it is now, is kept or is to be kept; None when the file is not there.
+
+    found: how its shape is turned, where that was found.
+    """
+    name = version_of(source, PICTURE, _PICTURE_FORMAT, *((found,) if found else ()))
+    return cache / PICTURES / f"{name}.png" if name else None

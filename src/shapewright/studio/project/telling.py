@@ -12,7 +12,8 @@ from shapewright.references.orientation import Orientation
 from shapewright.references.sources import MANIFEST, Source
 from shapewright.storage import write_file
 from shapewright.studio.project.workspace import Project, ProjectError
-from shapewright.studio.wire.detail import Axis, Told
+from shapewright.studio.wire.detail import Told
+from shapewright.studio.wire.values import Axis
 
 
 def told(source: Source) -> Told:
@@ -20,8 +21,8 @@ def told(source: Source) -> Told:
     row = Tables().row(source.path)
     if row is None:
         return Told()
-    up = row.cells.get("up", "").lower().removeprefix("+")
-    return Told(up=cast(Axis, up) if up else None, split=row.switches.split)
+    up, front = (row.cells.get(axis, "").lower().removeprefix("+") for axis in ("up", "front"))
+    return Told(up=cast(Axis, up or None), front=cast(Axis, front or None), split=row.switches.split)
 
 
 def tell(project: Project, sources: Iterable[Source], told: Told) -> None:
@@ -33,7 +34,7 @@ def tell(project: Project, sources: Iterable[Source], told: Told) -> None:
     for source in sources:
         table = _table(project, source, told)
         before = texts[table] if table in texts else table.read_text("utf-8") if table.is_file() else ""
-        cells = {"up": told.up or "", "split": told.split or ""}
+        cells = {"up": told.up or "", "front": told.front or "", "split": told.split or ""}
         texts[table] = with_cells(before, source.path.name, cells)
     for table, text in texts.items():
         try:
@@ -53,7 +54,8 @@ def _table(project: Project, source: Source, told: Told) -> Path:
             f"{source.name} lies outside the project, where the studio writes nothing: write it into {table}"
         )
     try:
-        Orientation.of(told.up or project.origin.up, project.origin.front)
+        others = (None, None) if project.origin.auto else (project.origin.up, project.origin.front)
+        Orientation.of(told.up or others[0] or "y", told.front or others[1])
     except CollectionError as error:
-        raise ProjectError(f"up {told.up}: {error}") from error
+        raise ProjectError(f"{source.name}: {error}") from error
     return table

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 from shapewright.procedures import BINARY, is_foreign, source_digest, text_of
-from shapewright.references.standing import AUTO
 from shapewright.runs.folder import runs
 from shapewright.storage import remove_leftovers, write_file
 from shapewright.studio.project.listing import Origin
@@ -72,13 +71,8 @@ class Project:
     ) -> Project:
         """The project in a folder. references: another source than its folder ``references``, which may lie anywhere.
 
-        Raises ProjectError for a folder without a procedure, and where up is to be found.
+        Raises ProjectError for a folder without a procedure.
         """
-        if up.strip().lower() == AUTO:
-            raise ProjectError(
-                "--up auto: the studio finds no axes; shapewright check says which ones references seem to have: "
-                "tell them by --up and --front, or for single files in a manifest"
-            )
         home = folder.expanduser().resolve()
         if not home.is_dir():
             raise ProjectError(f"{folder}: no such folder; {_START}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -41,6 +42,7 @@ class BenchLink:
         self.process = BenchProcess(heard, self._answered, changed)
         self._waiting: dict[int, Evaluate] = {}
         self._first: list[Slug] = []
+        self._recorded: dict[Slug, dict[str, Any]] = {}
 
     def evaluate(self, page: int, request: Evaluate) -> None:
         """Live evaluation; what a page asks while the bench starts waits, the newest alone."""
@@ -70,9 +72,15 @@ class BenchLink:
         """Say where the references are, and how they are measured."""
         cache = str(self._display.cache) if self._display.cache else None
         origin, align, seed = self._project.origin, settings.align, settings.seed
-        self.process.ask(References(origin=origin, cache=cache, align=align, seed=seed))
+        self._recorded = self._display.recorded(self._display.run)
+        self.process.ask(References(origin=origin, cache=cache, align=align, seed=seed, recorded=self._recorded))
         self.process.ask(First(slugs=self._first))
         self.process.ask(Pictures(slugs=self._display.missing))
+
+    def run_shown(self, settings: Settings) -> None:
+        """Another run is shown, which may have found other axes."""
+        if self._recorded != self._display.recorded(self._display.run):
+            self.list_references(settings)
 
     def load(self, settings: Settings) -> None:
         """Have the procedure read again."""

@@ -22,7 +22,7 @@ from shapewright.storage import printable
 from shapewright.studio.project.listing import Listing
 from shapewright.studio.project.picture_store import Pictures
 from shapewright.studio.session.standard import Standard
-from shapewright.studio.wire.collection import Collection, Group, Skipped, Stage, Tile
+from shapewright.studio.wire.collection import Axes, Collection, Group, Skipped, Stage, Tile
 from shapewright.studio.wire.judgement import Counts, Measures, Piece, Pose
 from shapewright.studio.wire.problems import Problem, together
 from shapewright.studio.wire.values import Address, Slug, message_of
@@ -54,6 +54,7 @@ class ReferenceState:
     missing: list[Piece] = field(default_factory=list)
     surplus: list[Piece] = field(default_factory=list)
     pose: Pose | None = None
+    axes: Axes | None = None
     group: int | None = None
     stage: Stage = "none"
     made_by: str | None = None  # version of the procedure that made the replica
@@ -156,6 +157,7 @@ def lay_out(
     standard: Standard,
     chosen: Mapping[str, Any] | None = None,
     made_by: str | None = None,
+    axes: Mapping[str, Axes] | None = None,
 ) -> Board:
     """The board of a listing, as far as a run knows its references. Raises RunError.
 
@@ -165,14 +167,18 @@ def lay_out(
     standard: of a board without a run.
     chosen: cuts that the run is judged by in place of its own.
     made_by: the version of the procedure that made the run's replicas.
+    axes: of those references of which they are known, where they are to be found.
     """
     record = read_record(run) if run else None
+    stand = axes or {}
     if record:
         standard = Standard.of_run(record, chosen)
     earlier = read_record(previous)["references"] if previous else []
     before = {entry["name"]: standard.value(entry) for entry in earlier}
     references = {
-        slug: ReferenceState(slug, source.name, reference=kept.get(slug), previous=before.get(source.name))
+        slug: ReferenceState(
+            slug, source.name, reference=kept.get(slug), previous=before.get(source.name), axes=stand.get(slug)
+        )
         for slug, source in listed.sources.items()
     }
     skipped = {printable(path): printable(reason) for path, reason in listed.skipped.items()}
@@ -184,6 +190,8 @@ def lay_out(
         if entry["name"] in slugs:
             slug = slugs[entry["name"]]
             references[slug] = replace(_filled(references[slug], entry, pictures, run), made_by=made_by)
+            if listed.sources[slug].by_author:  # who may have said it since
+                references[slug] = replace(references[slug], reference=kept.get(slug))
     groups = tuple(_groups(record["groups"], slugs))
     of_run = _still_there(record["collection"]["skipped"], (*known, *skipped))
     board = Board(references, groups, run.name, standard, {**of_run, **skipped})

@@ -8,6 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from msgspec import convert
+
+from shapewright.references.orientation import Orientation
+from shapewright.references.standing import found_axes
 from shapewright.runs.folder import EXPLANATION, RunError, read_json, read_record
 from shapewright.runs.helpers import unchanged_beside
 from shapewright.settings import Settings
@@ -20,7 +24,7 @@ from shapewright.studio.session.board import Board, lay_out
 from shapewright.studio.session.pages import Pages
 from shapewright.studio.session.standard import CUTS, Standard
 from shapewright.studio.wire.changes import CollectionChanged, TilesChanged
-from shapewright.studio.wire.collection import Stage
+from shapewright.studio.wire.collection import Axes, Stage
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Slug, Values
 
@@ -60,6 +64,7 @@ class Display:
         self._left: set[Slug] = set()
         self._dirty: set[Slug] = set()
         self._reported: list[Problem] = []
+        self._found: dict[Slug, Axes] = {}  # axes that the bench told of last
         self._unreadable: dict[str, tuple[str, str]] = {}
 
     def relist(self) -> None:
@@ -131,18 +136,35 @@ class Display:
         """
         runs = self.project.runs
         before = runs[runs.index(run) - 1] if run in runs[1:] else None
-        kept = {slug: self._kept(slug) for slug in self.listed.sources}
+        axes = self._axes(run)
+        kept = {slug: self._kept(slug, axes.get(slug)) for slug in self.listed.sources}
         made_by = self._made_by(run) if run else None
-        board = lay_out(self.listed, self.pictures, kept, run, before, standard, chosen, made_by)
+        board = lay_out(self.listed, self.pictures, kept, run, before, standard, chosen, made_by, axes)
         board = replace(board, version=made_by)
         for slug, (path, reason) in self._unreadable.items():
             board = board.without(slug, path, reason)
         return board
 
+    def recorded(self, run: Path | None) -> dict[Slug, dict[str, Any]]:
+        """The axes that a run found, of those references whose author tells none."""
+        try:
+            found = found_axes(read_record(run)["collection"]) if run else {}
+        except RunError:
+            return {}
+        names = {slug: self.listed.sources[slug].name for slug in self.listed.free}
+        return {slug: dict(found[name]) for slug, name in names.items() if name in found}
+
+    def _axes(self, run: Path | None) -> dict[Slug, Axes]:
+        """What is known of the axes of references beside a run, where these are to be found."""
+        recorded = {slug: convert(each, Axes) for slug, each in self.recorded(run).items()}
+        found = {slug: axes for slug, axes in {**self._found, **recorded}.items() if slug in self.listed.free}
+        return found | {slug: Axes.of(one, "author") for slug, one in self.listed.told.items()}
+
     @property
     def missing(self) -> list[Slug]:
-        """Slugs of the references whose picture is not known yet."""
-        return [slug for slug, state in self.board.references.items() if state.reference is None]
+        """Slugs of the references of which no picture is kept; that of a run may be older than the author's word."""
+        axes = self._axes(self.run)
+        return [slug for slug in self.board.references if self._kept(slug, axes.get(slug)) is None]
 
     @property
     def parameters(self) -> dict[Slug, Values]:
@@ -182,7 +204,9 @@ class Display:
             return
         match message:
             case Drawn():
-                self._change(message.slug, reference=self.pictures.add(payload))
+                if message.axes:
+                    self._found[message.slug] = message.axes
+                self._change(message.slug, reference=self.pictures.add(payload), axes=message.axes)
             case Unreadable() if message.slug in self.board.references:
                 path = printable(self.listed.sources[message.slug].place)
                 self._unreadable[message.slug] = path, message.reason
@@ -241,8 +265,12 @@ class Display:
             self._reported = problems
             self._on_problems(problems)
 
-    def _kept(self, slug: Slug) -> str | None:
-        path = kept_picture(self.cache, self.listed.sources[slug]) if self.cache else None
+    def _kept(self, slug: Slug, axes: Axes | None) -> str | None:
+        """None where it is not known how the reference stands."""
+        if self.cache is None or (axes is None and slug in self.listed.free):
+            return None
+        found = Orientation(axes.up, axes.front) if axes and slug in self.listed.free else None
+        path = kept_picture(self.cache, self.listed.sources[slug], found)
         return self.pictures.add_file(path) if path else None
 
     def _forget_pictures(self) -> None:

@@ -82,7 +82,7 @@ class JobList:
         run = self._display.run
         if run is None and set(order.what) != {"samples"}:
             raise Refused("there is no run to export yet; fit first, or export samples alone")
-        place = {"run": str(run) if run else None, "procedure": str(self._project.procedure)}
+        place: dict[str, Any] = {"run": str(run) if run else None, "procedure": str(self._project.procedure)}
         place |= {"origin": vars(self._project.origin)}
         folder = self._project.scratch("exports")
         self._start("export", {**asdict(order), **place, "folder": str(folder)})

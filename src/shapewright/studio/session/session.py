@@ -166,6 +166,7 @@ class Session:
     def _show(self, run: Path | None) -> None:
         """Show a run, and ask for its marks."""
         self.display.show(run, self.standard)
+        self.bench.run_shown(self.choices.settings)
         self.choices.publish_marks()
 
     def _list_references(self) -> None:

@@ -4,14 +4,27 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, TypeAlias
 
-from msgspec import Meta, Struct
+from msgspec import Meta, Struct, convert
 
+from shapewright.references.orientation import AxesBy, Orientation
 from shapewright.studio.wire.judgement import Counts, Judge, Judged, Pose
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.values import Address, Slug, Value
+from shapewright.studio.wire.values import Address, Axis, Slug, Value
 
 Stage: TypeAlias = Annotated[Literal["none", "carried", "early", "predicted", "trained"], Meta(title="Stage")]
 """How far the replica that is shown is from a finished fit."""
+
+
+class Axes(Struct, frozen=True, kw_only=True):
+    """Which axes of a file point up and to the front, where these are to be found."""
+
+    up: Axis
+    front: Axis
+    by: Literal["author", "format", "floor", "default", "found"]  # who says so; found: it was turned to stand so
+
+    @classmethod
+    def of(cls, orientation: Orientation, by: AxesBy) -> Axes:
+        return convert({"up": orientation.up, "front": orientation.front, "by": by}, cls)
 
 
 class Tile(Judged, frozen=True, kw_only=True):
@@ -21,6 +34,7 @@ class Tile(Judged, frozen=True, kw_only=True):
     name: str  # what people read
     reference: Address | None  # its picture, square on transparent; null until it is drawn
     replica: Address | None  # picture of the replica; null until there is one
+    axes: Axes | None  # null until they are known, and where nobody looks for them
     group: int | None  # index into the collection's groups; while a fit runs, these are those of the run before
     stage: Stage
     stale: bool  # the replica is of an older version of the procedure

@@ -6,16 +6,14 @@ dictionaries: fields that are not named here stay.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, NotRequired, TypeAlias, TypedDict
+from typing import Any, Literal, NotRequired, TypedDict
 
-from msgspec import Meta, Struct
+from msgspec import Struct
 
 from shapewright.studio.wire.collection import Stage
 from shapewright.studio.wire.judgement import Judged, Measures, Piece, Pose
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.values import Address, Slug, Values, Vector
-
-Axis: TypeAlias = Annotated[Literal["x", "-x", "y", "-y", "z", "-z"], Meta(title="Axis")]
+from shapewright.studio.wire.values import Address, Axis, Slug, Values, Vector
 
 
 class Units(Struct, frozen=True, kw_only=True):
@@ -39,6 +37,7 @@ class Told(Struct, frozen=True, kw_only=True):
     """What the author says of one file alone; null: what holds for all."""
 
     up: Axis | None = None  # that points up in it
+    front: Axis | None = None  # that points to the front
     split: Literal["off", "apart", "names"] | None = None  # which objects in it the next fit takes as references
 
 

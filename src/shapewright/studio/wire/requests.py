@@ -149,8 +149,8 @@ _SHOULD: Mapping[Any, str] = {
     ExportOrder: f"what is a list of {_words(Part)}; format is one of {_words(ExportFormat)}; "
     f"frame is one of {_words(Frame)}; "
     f"count lies between 1 and {MOST_SAMPLES}; seed is a whole number",
-    TellOrder: "slugs is a list of references; told has up (x, -x, y, -y, z, -z or null) and split (off, apart, names "
-    "or null)",
+    TellOrder: "slugs is a list of references; told has up and front (x, -x, y, -y, z, -z or null) and split (off, "
+    "apart, names or null)",
     CancelOrder: f"kind is one of {_words(JobKind)}",
     RestoreOrder: "digest is a string or null",
     ApplyOrder: "to is copy or procedure, digest is a string or null",

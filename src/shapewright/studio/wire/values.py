@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, TypeAlias, TypeVar
+from typing import Annotated, Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 import numpy as np
@@ -16,6 +16,8 @@ Value: TypeAlias = Annotated[ParameterValue, Meta(title="Value")]
 Values: TypeAlias = Annotated[dict[str, Value], Meta(title="Values")]
 """Parameters of one shape by name, in the procedure's own units."""
 Vector: TypeAlias = Annotated[tuple[float, float, float], Meta(title="Vector")]
+Axis: TypeAlias = Annotated[Literal["x", "-x", "y", "-y", "z", "-z"], Meta(title="Axis")]
+"""Of a file."""
 Address: TypeAlias = Annotated[str, Meta(title="Address")]
 """A path on this server, such as ``/api/pictures/1f0c.png``: a picture there never changes."""
 Kind = TypeVar("Kind", bound=Struct)

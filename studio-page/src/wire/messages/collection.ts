@@ -1,10 +1,18 @@
 // Made from src/shapewright/studio/wire/collection.py by `python tools/message_types.py`.
 
-import type { Address, Slug, Value } from "./values";
+import type { Address, Axis, Slug, Value } from "./values";
 import type { Counts, Grade, Judge, Pose } from "./judgement";
 import type { Problem } from "./problems";
 
 export type Stage = "none" | "carried" | "early" | "predicted" | "trained";
+
+/** Which axes of a file point up and to the front, where these are to be found. */
+export interface Axes {
+  up: Axis;
+  front: Axis;
+  /** who says so; found: it was turned to stand so. */
+  by: "author" | "format" | "floor" | "default" | "found";
+}
 
 /** One reference and its replica. */
 export interface Tile {
@@ -25,6 +33,8 @@ export interface Tile {
   reference: Address | null;
   /** picture of the replica; null until there is one. */
   replica: Address | null;
+  /** null until they are known, and where nobody looks for them. */
+  axes: Axes | null;
   /** index into the collection's groups; while a fit runs, these are those of the run before. */
   group: number | null;
   stage: Stage;

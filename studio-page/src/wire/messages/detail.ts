@@ -1,11 +1,9 @@
 // Made from src/shapewright/studio/wire/detail.py by `python tools/message_types.py`.
 
-import type { Address, Slug, Values, Vector } from "./values";
+import type { Address, Axis, Slug, Values, Vector } from "./values";
 import type { Grade, Measures, Piece, Pose } from "./judgement";
 import type { Problem } from "./problems";
 import type { Stage } from "./collection";
-
-export type Axis = "x" | "-x" | "y" | "-y" | "z" | "-z";
 
 /** The way back from the normalised frame: own = axes^T @ (normalised / scale + centre). In 2D, vectors of two. */
 export interface Units {
@@ -29,6 +27,8 @@ export interface About {
 export interface Told {
   /** that points up in it. */
   up: Axis | null;
+  /** that points to the front. */
+  front: Axis | null;
   /** which objects in it the next fit takes as references. */
   split: "off" | "apart" | "names" | null;
 }

@@ -8,4 +8,6 @@ export type Values = Record<string, Value>;
 
 export type Vector = [number, number, number];
 
+export type Axis = "x" | "-x" | "y" | "-y" | "z" | "-z";
+
 export type Address = string;
