@@ -43,8 +43,14 @@ def prepared(references: Collection, how: Preparing, threads: int | None = None)
 
 
 def without_extras(reference: Reference, how: Preparing) -> Reference:
-    """One reference without what stands around it, see ``Preparing.drop``."""
-    return next(_prepared(reference, replace(how, split="off")))
+    """One reference whole, without what stands around it, see ``Preparing.drop``."""
+    whole = replace(reference, switches=replace(reference.switches, split="off"))
+    return replace(next(_prepared(whole, how)), switches=reference.switches)
+
+
+def objects_in(reference: Reference, how: Preparing) -> list[Reference]:
+    """What is fitted of one file: its objects where it is to be split, see ``Preparing.split``; else itself."""
+    return list(_prepared(reference, how))
 
 
 def following(references: Collection, how: Preparing, threads: int | None = None) -> tuple[Duplicate, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Generic, TypeAlias, TypeVar
 
@@ -20,9 +20,9 @@ from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape, Shape
 from shapewright.storage import remove_leftovers, whole_file
-from shapewright.studio.project.listing import PICTURE, PICTURES, Listing, kept_picture
+from shapewright.studio.project.listing import PICTURE, PICTURES, Listing
 from shapewright.studio.wire.collection import Axes
-from shapewright.survey.preparation import without_extras
+from shapewright.survey.preparation import objects_in, without_extras
 
 Item = TypeVar("Item")
 Stance: TypeAlias = Finding | Mapping[str, Any]
@@ -105,12 +105,17 @@ class Gallery:
         read, stance = self.given(slug), self.stances.get(slug)
         if stance is not None and is_free(read):
             read = turned(read, stance) if isinstance(stance, Finding) else recalled(read, stance)
-        read = without_extras(read.standing(self.facts.up) if self.facts.up != "y" else read, Settings())
+        read = read.standing(self.facts.up) if self.facts.up != "y" else read
+        if slug in self.listed.files:
+            name = self.listed.sources[slug].name
+            read = next((part for part in objects_in(read, Settings()) if part.name == name), read)
+        else:
+            read = without_extras(read, Settings())
         return self._shelf.put(slug, read.sized(self.facts.metres) if self.facts.size == "given" else read)
 
     def given(self, slug: str) -> Reference:
-        """As its file holds it. Raises as ``[]`` does."""
-        source = self.listed.sources[slug]
+        """As its file holds it, all objects in it. Raises as ``[]`` does."""
+        source = self.listed.files.get(slug) or self.listed.sources[slug]
         (read,) = self._readers.read([source])
         if isinstance(read, UnreadableError):
             reason = read
@@ -118,6 +123,17 @@ class Gallery:
             if isinstance(read, UnreadableError):
                 raise reason
         return read
+
+    def parted(self, slug: str, names: Sequence[str]) -> Gallery:
+        """With the objects in a file in its place; they stand as it does."""
+        listed, stances = self.listed.parted(slug, names), dict(self.stances)
+        if slug in stances:
+            stances |= dict.fromkeys(listed.files.keys() - self.listed.files.keys(), stances[slug])
+        return Gallery(listed, self._cache, self._readers, self.facts, stances)
+
+    def objects(self, slug: str) -> list[str]:
+        """The names of what a file is split into; one where it stays whole. Raises as ``[]`` does."""
+        return [part.name for part in objects_in(self.given(slug), Settings())]
 
     def axes(self, slug: str) -> Axes | None:
         """Which axes of its file point up and to the front, where these are to be found. Raises as ``[]`` does."""
@@ -151,7 +167,7 @@ class Gallery:
         drawn = thumbnail(reference.shape, PICTURE)
         found, kept = reference.orientation if slug in self.stances else None, None
         if self._cache and (found or self.facts.up == "y"):
-            kept = kept_picture(self._cache, self.listed.sources[slug], found)
+            kept = self.listed.kept_picture(self._cache, slug, found)
         if kept:
             kept.parent.mkdir(parents=True, exist_ok=True)
             with whole_file(kept) as partial:

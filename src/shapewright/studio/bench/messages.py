@@ -95,6 +95,13 @@ class Drawn(BenchMessage, frozen=True):
     axes: Axes | None  # null where nobody looks for them
 
 
+class Parted(BenchMessage, frozen=True):
+    """The objects in a file stand in its place."""
+
+    slug: Slug
+    names: list[str]
+
+
 class Unreadable(BenchMessage, frozen=True):
     """A reference cannot be read or drawn."""
 
@@ -163,6 +170,6 @@ class Reply(BenchMessage, frozen=True):
     error: str | None = None  # there is no such thing
 
 
-News: TypeAlias = Drawn | Unreadable | Loaded | Unusable | Swept | Measured | SweepEnded
+News: TypeAlias = Drawn | Parted | Unreadable | Loaded | Unusable | Swept | Measured | SweepEnded
 """What is for the session."""
 Answer: TypeAlias = Ready | Answered | Reply | News

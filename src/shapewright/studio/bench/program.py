@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Collection, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -18,11 +19,10 @@ from shapewright.procedures import Facts
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.reading import Readers
 from shapewright.rendering.cameras import THUMBNAIL
-from shapewright.rendering.splats import discs
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.search.sizes import likeness
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Mesh, Points, Shape, Views
+from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.studio.bench import messages, shape_messages
 from shapewright.studio.bench.gallery import Gallery, Shelf, Stance, shape_bytes
 from shapewright.studio.bench.inbox import Inbox
@@ -107,7 +107,19 @@ class Bench:
             listed = Listing({}, {})
         self._gallery = Gallery(listed, self._cache, self._readers, self._gallery.facts, request.recorded)
         self._wanted = {}
-        self._look_for_axes()
+        self._begin("axes", self._find_axes())
+        self._begin("objects", self._split())
+
+    def _split(self) -> Iterator[None]:
+        for slug in self._gallery.listed.whole:
+            with suppress(UnreadableError):
+                names = self._gallery.objects(slug)
+                if len(names) > 1:
+                    self._gallery = self._gallery.parted(slug, names)
+                    self._send(messages.Parted(slug=slug, names=names))
+                    self._wanted.pop(slug, None)
+                    self._want(self._gallery.listed.files)
+            yield
 
     def _stand(self, facts: Facts, stances: Mapping[Slug, Stance]) -> None:
         """Have the references stand as a procedure with these facts builds, and as they were found to."""
@@ -117,21 +129,20 @@ class Bench:
         changed = [slug for slug in before.listed.sources if stances.get(slug) != before.stances.get(slug)]
         self._want(before.listed.sources if facts.up != before.facts.up else changed)
 
-    def _look_for_axes(self) -> None:
-        """Before all else that is done between requests: it depends on them."""
-        self._tasks.pop("axes", None)
-        if self._gallery.unsettled:
-            self._tasks = {"axes": self._find_axes(), **self._tasks}
+    def _begin(self, name: str, task: Iterator[None]) -> None:
+        """Before all else that is done between requests, which depends on it; in place of one of this name."""
+        self._tasks = {name: task, **{other: one for other, one in self._tasks.items() if other != name}}
 
     def _find_axes(self) -> Iterator[None]:
-        stances = yield from self._standing.find(self._gallery, self._workshop, self._settings.seed)
-        self._stand(self._gallery.facts, stances)
+        if self._gallery.unsettled:
+            stances = yield from self._standing.find(self._gallery, self._workshop, self._settings.seed)
+            self._stand(self._gallery.facts, stances)
 
     @property
     def _references(self) -> Gallery:
-        """The references, once it is known how they stand."""
-        while "axes" in self._tasks:
-            self._advance("axes")
+        """The references, once it is known what they are and how they stand."""
+        while first := next((name for name in ("objects", "axes") if name in self._tasks), None):
+            self._advance(first)
         return self._gallery
 
     def _want(self, slugs: Collection[Slug]) -> None:
@@ -162,7 +173,7 @@ class Bench:
             if version.facts != self._gallery.facts:
                 self._stand(version.facts, self._gallery.stances)
             if other or not self._standing.taught:
-                self._look_for_axes()
+                self._begin("axes", self._find_axes())
             space, defaults = version.parameters, version.defaults
             self._send(messages.Loaded(load=request.load, name=version.name, parameters=space, defaults=defaults))
 
@@ -266,14 +277,8 @@ class Bench:
                 shape = self._replica(request.parameters) if request.parameters is not None else shape
                 camera = replace(THUMBNAIL, azimuth=request.azimuth, elevation=request.elevation)
                 payload = thumbnail(shape, request.size, camera)
-            elif isinstance(shape, Mesh):
-                payload = shape_messages.mesh_message(shape, id=0, slug=request.slug, shape="reference")
-            elif isinstance(shape, Points):
-                head = {"id": 0, "slug": request.slug, "shape": "reference", "discs": True}
-                payload = shape_messages.mesh_message(discs(shape), **head)
             else:
-                shape = shape_messages.silhouette(shape) if isinstance(shape, Views) else shape
-                message = shape_messages.drawing_message(shape, None, id=0, slug=request.slug, shape="reference")
+                message, payload = shape_messages.reference_message(shape, request.slug)
         except (KeyError, UnreadableError, ValueError, Broken) as error:
             wrong = str(error)
         self._send(messages.Reply(request=request.request, message=message, error=wrong), payload)

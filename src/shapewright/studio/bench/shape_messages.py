@@ -13,7 +13,8 @@ from shapewright.judging.target import Measures, Target
 from shapewright.judging.verdict import Evidence
 from shapewright.references.readers.pictures import outline
 from shapewright.references.reference import Reference
-from shapewright.shapes import Drawing, Mesh, Shape, Views
+from shapewright.rendering.splats import discs
+from shapewright.shapes import Drawing, Mesh, Points, ReferenceShape, Shape, Views
 from shapewright.studio.bench.residual_colours import LIMIT, Residual
 from shapewright.studio.bench.workshop import Built
 from shapewright.studio.wire.answers import (
@@ -110,6 +111,18 @@ def mesh_message(mesh: Mesh, **head: Any) -> bytes:
     labels = {} if mesh.face_labels is None else {"labels": mesh.face_labels.astype(np.int32)}
     head |= {"vertices": len(mesh.vertices), "triangles": len(mesh.faces), "label_names": list(mesh.label_names)}
     return binary(MeshHead(**head), _triangles(mesh) | labels)
+
+
+def reference_message(shape: ReferenceShape, slug: Slug) -> tuple[DrawingMessage | None, bytes]:
+    """The message of a reference, or its payload: points are shown as discs, views by their first silhouette."""
+    head: dict[str, Any] = {"id": 0, "slug": slug, "shape": "reference"}
+    match shape:
+        case Mesh():
+            return None, mesh_message(shape, **head)
+        case Points():
+            return None, mesh_message(discs(shape), **head, discs=True)
+        case _:
+            return drawing_message(silhouette(shape) if isinstance(shape, Views) else shape, None, **head), b""
 
 
 def residual_message(residual: Residual, **head: Any) -> bytes:

@@ -48,11 +48,13 @@ class Standing:
 
         seed: of the samples.
         """
-        known: dict[Slug, Seen] = {}
+        known: dict[str, Seen] = {}  # by version of a file, which may hold several references
+        files: dict[Slug, str] = {}
         for slug in sorted(gallery.listed.free):
-            seen = self._look(gallery, slug)
-            if seen:
-                known[slug] = seen
+            version = version_of(gallery.listed.files.get(slug) or gallery.listed.sources[slug])
+            seen = self._look(gallery, slug, version) if version else None
+            if version and seen:
+                files[slug], known[version] = version, seen
             yield
         self.taught = False
         if not known:
@@ -64,13 +66,11 @@ class Standing:
         front = told(gallery.listed.origin.up, gallery.listed.origin.front)[1]
         looks = Looks.joined([seen.looks for seen in known.values()])
         findings = found([seen.orientation for seen in known.values()], looks, front, kind)
-        return {**dict(zip(known, findings, strict=True)), **gallery.recorded}
+        told_of = dict(zip(known, findings, strict=True))
+        return {**{slug: told_of[version] for slug, version in files.items()}, **gallery.recorded}
 
-    def _look(self, gallery: Gallery, slug: Slug) -> Seen | None:
+    def _look(self, gallery: Gallery, slug: Slug, version: str) -> Seen | None:
         """None of what cannot be read, and of what is not to be turned."""
-        version = version_of(gallery.listed.sources[slug])
-        if version is None:
-            return None
         if version not in self._seen:
             self._seen[version] = None
             try:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -17,7 +17,7 @@ from shapewright.storage import file_names
 PICTURE = 256
 """Pixels of a reference's thumbnail."""
 PICTURES = "thumbnails"  # the folder in the cache
-_PICTURE_FORMAT = 1
+_PICTURE_FORMAT = 2
 """Part of every cached picture's name; raise it whenever the same file would get another picture."""
 _OUTSIDE = "a link that leads out of the project folder; start the studio with --references to allow it"
 
@@ -45,6 +45,25 @@ class Listing:
     sources: Mapping[str, Source]
     skipped: Mapping[Path, str]
     origin: Origin = field(default_factory=lambda: Origin(""))
+    files: Mapping[str, Source] = field(default_factory=dict)  # by slug, of what is one of several objects in a file
+
+    @property
+    def whole(self) -> list[str]:
+        """Slugs of files that are to be split, and are not yet."""
+        split = ("apart", "names")
+        return [slug for slug, one in self.sources.items() if one.switches.split in split and slug not in self.files]
+
+    def parted(self, slug: str, names: Sequence[str]) -> Listing:
+        """With the objects in a file in its place."""
+        file, sources, files = self.sources[slug], dict[str, Source](), dict(self.files)
+        taken = tuple(other for other in self.sources if other != slug)
+        slugs = file_names((*taken, *names))
+        for other, source in self.sources.items():
+            for name in names if other == slug else ():
+                sources[slugs[name]], files[slugs[name]] = replace(file, name=name), file
+            if other != slug:
+                sources[other] = source
+        return replace(self, sources=sources, files=files)
 
     @property
     def free(self) -> set[str]:
@@ -61,6 +80,11 @@ class Listing:
         """Those that have an up and a front to be found."""
         sources = self.sources.items() if self.origin.auto else ()
         return {slug: one for slug, one in sources if one.path.suffix.lower() in MESHES}
+
+    def kept_picture(self, cache: Path, slug: str, found: Orientation | None = None) -> Path | None:
+        """See the function of this name. found: how its shape is turned, where that was found."""
+        source = self.sources[slug]
+        return kept_picture(cache, source, found, source.name if slug in self.files else None)
 
     @property
     def dimension(self) -> Literal[2, 3]:
@@ -90,14 +114,15 @@ def version_of(source: Source, *more: object) -> str | None:
         state = source.path.stat()
     except OSError:
         return None
-    read = (source.path.resolve(), state.st_mtime_ns, state.st_size, source.orientation, source.keep)
+    own = source.keep, source.switches.drop, source.switches.split
+    read = (source.path.resolve(), state.st_mtime_ns, state.st_size, source.orientation, *own)
     return hashlib.blake2b(repr((*read, *more)).encode(), digest_size=16).hexdigest()
 
 
-def kept_picture(cache: Path, source: Source, found: Orientation | None = None) -> Path | None:
+def kept_picture(cache: Path, source: Source, found: Orientation | None = None, part: str | None = None) -> Path | None:
     """Where the thumbnail of a file, as it is now, is kept or is to be kept; None when the file is not there.
 
-    found: how its shape is turned, where that was found.
+    found: how its shape is turned, where that was found. part: the name of the object in it that is shown.
     """
-    name = version_of(source, PICTURE, _PICTURE_FORMAT, *((found,) if found else ()))
+    name = version_of(source, PICTURE, _PICTURE_FORMAT, found, part)
     return cache / PICTURES / f"{name}.png" if name else None

@@ -16,8 +16,8 @@ from shapewright.runs.folder import EXPLANATION, RunError, read_json, read_recor
 from shapewright.runs.helpers import unchanged_beside
 from shapewright.settings import Settings
 from shapewright.storage import printable
-from shapewright.studio.bench.messages import Drawn, Measured, SweepEnded, Swept, Unreadable
-from shapewright.studio.project.listing import Listing, kept_picture, listing
+from shapewright.studio.bench.messages import Drawn, Measured, Parted, SweepEnded, Swept, Unreadable
+from shapewright.studio.project.listing import Listing, listing, version_of
 from shapewright.studio.project.picture_store import Pictures
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.session.board import Board, lay_out
@@ -64,6 +64,7 @@ class Display:
         self._left: set[Slug] = set()
         self._dirty: set[Slug] = set()
         self._reported: list[Problem] = []
+        self._parts: dict[str, list[str]] = {}  # names of the objects in files, by version
         self._found: dict[Slug, Axes] = {}  # axes that the bench told of last
         self._unreadable: dict[str, tuple[str, str]] = {}
 
@@ -72,6 +73,9 @@ class Display:
         self._unreadable.clear()
         self.listed = Listing({}, {})
         self.listed = listing(self.project.origin)
+        for slug in self.listed.whole:
+            if names := self._parts.get(version_of(self.listed.sources[slug]) or ""):
+                self.listed = self.listed.parted(slug, names)
 
     def newest(self, of_version: bool = False) -> Path | None:
         """The newest run that knows some reference. of_version: of those that the procedure on disk made."""
@@ -164,7 +168,8 @@ class Display:
     def missing(self) -> list[Slug]:
         """Slugs of the references of which no picture is kept; that of a run may be older than the author's word."""
         axes = self._axes(self.run)
-        return [slug for slug in self.board.references if self._kept(slug, axes.get(slug)) is None]
+        states = self.board.references.items()
+        return [slug for slug, one in states if one.reference is None or self._kept(slug, axes.get(slug)) is None]
 
     @property
     def parameters(self) -> dict[Slug, Values]:
@@ -198,7 +203,7 @@ class Display:
         self._sweep += 1
         self.swept.set()
 
-    def take(self, message: Drawn | Unreadable | Swept | Measured | SweepEnded, payload: bytes) -> None:
+    def take(self, message: Drawn | Parted | Unreadable | Swept | Measured | SweepEnded, payload: bytes) -> None:
         """Apply what the bench says of references and replicas."""
         if isinstance(message, Swept | Measured | SweepEnded) and message.sweep != self._sweep:
             return
@@ -211,6 +216,8 @@ class Display:
                 path = printable(self.listed.sources[message.slug].place)
                 self._unreadable[message.slug] = path, message.reason
                 self._put_up(self.board.without(message.slug, path, message.reason))
+            case Parted() if message.slug in self.listed.sources:
+                self._split(message.slug, message.names)
             case SweepEnded():
                 self._left.clear()
             case Measured():
@@ -220,6 +227,16 @@ class Display:
                 self._left.discard(message.slug)
         if not self._left:
             self.swept.set()
+
+    def _split(self, slug: Slug, names: list[str]) -> None:
+        """Show the objects in a file in its place; the others stay as they are."""
+        if version := version_of(self.listed.sources[slug]):
+            self._parts[version] = names
+        self.listed = self.listed.parted(slug, names)
+        self.run = self.run or self.newest()
+        board = self.laid_out(self.run, self.board.standard, self._chosen).explained_by(self.explanation)
+        kept = {one: self.board.references.get(one) or state for one, state in board.references.items()}
+        self._put_up(replace(board, references=kept))
 
     def _take_replica(self, message: Swept, payload: bytes) -> None:
         if message.problem:
@@ -270,7 +287,7 @@ class Display:
         if self.cache is None or (axes is None and slug in self.listed.free):
             return None
         found = Orientation(axes.up, axes.front) if axes and slug in self.listed.free else None
-        path = kept_picture(self.cache, self.listed.sources[slug], found)
+        path = self.listed.kept_picture(self.cache, slug, found)
         return self.pictures.add_file(path) if path else None
 
     def _forget_pictures(self) -> None:
