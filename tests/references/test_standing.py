@@ -1,10 +1,12 @@
 import numpy as np
 import pytest
+import trimesh
 
 from shapewright.axes.turns import TURNS
 from shapewright.modelling.solids import box
 from shapewright.references import Collection, Orientation
 from shapewright.references.standing import axes_record, found_axes, recorded_orientation
+from shapewright.shapes import Points
 from shapewright.shapes.files import encode
 
 
@@ -93,6 +95,36 @@ def test_a_procedure_that_builds_z_up_does_not_lay_down_what_is_found_to_stand()
     assert {reference.orientation for reference in tidy.standing("z")} == {Orientation()}
     block = Collection.of({"block": box((1, 0.4, 0.6)).mesh()})  # nothing was looked for
     assert {reference.orientation for reference in block.standing("z")} == {Orientation.of("z")}
+
+
+def points_of(mesh, seed=0, count=6000):
+    """Evenly spread over a surface."""
+    return Points(trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).sample(count, seed=seed))
+
+
+def test_points_are_found_to_stand_as_meshes_are():
+    given = {str(width): points_of(chair(width)).transformed(FILE.matrix.T) for width in WIDTHS}
+    taught = [chair(width) for width in np.linspace(0.6, 1.2, 30)]
+    found = Collection.of(given, up="auto").stood(taught)
+    assert {(reference.orientation, reference.axes_by) for reference in found} == {(FILE, "found")}
+    for reference in found:
+        right = chair(float(reference.name)).normalised()
+        np.testing.assert_allclose(reference.shape.bounds, right.bounds, atol=0.01)
+
+
+def test_points_that_lie_on_their_floor_keep_its_up_and_the_author_may_still_tell_a_front():
+    ground = points_of(box((3, 0.001, 3), at=(0, -0.001, 0)).mesh(), 1)
+    scans = {}
+    for width in WIDTHS:
+        both = Points(np.concatenate([points_of(chair(width)).positions, ground.positions]))
+        scans[str(width)] = both.transformed(Orientation("z", "x").matrix.T)
+    taught = [chair(width) for width in np.linspace(0.6, 1.2, 30)]
+    lying = [mesh.transformed(Orientation("x", "y").matrix.T) for mesh in taught]  # as if chairs lay on their sides
+    for shapes, fronts in ((taught, {"x"}), (lying, {"x", "-x", "y", "-y"})):
+        found = Collection.of(scans, up="auto").stood(shapes)
+        assert {reference.orientation.up for reference in found} == {"z"}
+        assert {reference.orientation.front for reference in found} <= fronts
+    assert {reference.orientation.front for reference in Collection.of(scans, up="auto", front="z")} == {"z"}
 
 
 def test_drawings_have_no_axes_to_find(tmp_path):

@@ -13,7 +13,7 @@ from shapewright.axes.everyday import Weights, log_likely, scaled
 from shapewright.axes.linear import Linear, log_softmax
 from shapewright.axes.looks import ALIKE, Looks
 from shapewright.axes.turns import AFTER, AS_IT_IS, INVERSE, TURNS, UPRIGHT, UPS
-from shapewright.shapes import Floats, Mesh
+from shapewright.shapes import Floats, Mesh, Points
 
 _SURE, _SURE_FRONT, _TIE = 0.6, 0.95, 1e-6
 """Least likelihood of an up, and of a front without a procedure, that is turned to; below it nothing is turned."""
@@ -75,7 +75,7 @@ class Kind:
 
 
 def find(
-    shapes: Sequence[Mesh],
+    shapes: Sequence[Mesh | Points],
     allowed: NDArray[np.bool_] | None = None,
     taught: Sequence[Mesh] = (),
     threads: int | None = None,

@@ -10,7 +10,7 @@ import numpy as np
 from shapewright.axes.features import features
 from shapewright.axes.sides import Sides
 from shapewright.axes.turns import AFTER, INVERSE
-from shapewright.shapes import Floats, Ints, Mesh
+from shapewright.shapes import Floats, Ints, Mesh, Points
 from shapewright.threads import in_threads
 
 ALIKE = 0.08
@@ -30,7 +30,7 @@ class Looks:
     apart: Floats
 
     @classmethod
-    def of(cls, shapes: Sequence[Mesh], threads: int | None = None) -> Looks:
+    def of(cls, shapes: Sequence[Mesh | Points], threads: int | None = None) -> Looks:
         """Of one shape at least. threads: one a core by default."""
         sides = in_threads(Sides.of, shapes, threads)
         return cls(np.array(in_threads(features, sides, threads)), np.array(in_threads(Sides.apart, sides, threads)))

@@ -1,4 +1,4 @@
-"""A mesh from six sides, stretched to fill a cube: what it looks like apart from its proportions."""
+"""A shape from six sides, stretched to fill a cube: what it looks like apart from its proportions."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from shapewright.axes.turns import SOURCES, TURNS
+from shapewright.rendering.splats import discs
 from shapewright.rendering.surround import EMPTY, SIZE, Surround
-from shapewright.shapes import Floats, Mesh
+from shapewright.shapes import Floats, Mesh, Points
 
 _THINNEST = 1e-3  # of the largest extent: what is thinner is stretched as if it were so thick
 _POOL = 4  # pixels along the side of a cell in which two pictures are compared
@@ -17,7 +18,7 @@ _POOL = 4  # pixels along the side of a cell in which two pictures are compared
 
 @dataclass(frozen=True, eq=False)
 class Sides:
-    """What is seen of a mesh.
+    """What is seen of a mesh, or of points as discs that lie in the surface.
 
     Attributes:
         nearness: (6, SIZE, SIZE) float32, from 0 at the far side of its box to 1 at the near one; below 0 where empty.
@@ -30,11 +31,12 @@ class Sides:
     centre: Floats
 
     @classmethod
-    def of(cls, mesh: Mesh) -> Sides:
-        """Raises ValueError for a mesh of no size."""
+    def of(cls, shape: Mesh | Points) -> Sides:
+        """Raises ValueError for a shape of no size."""
+        mesh = discs(shape) if isinstance(shape, Points) else shape
         box = mesh.extent
         if not box.max() > 0.0:
-            raise ValueError("a mesh of no size has no sides")
+            raise ValueError("a shape of no size has no sides")
         box = np.maximum(box, _THINNEST * box.max())
         stretched = Mesh((mesh.vertices - mesh.bounds.mean(axis=0)) / box, mesh.faces)
         seen = Surround.of(stretched, slice(0, 6)).nearness

@@ -7,10 +7,11 @@ from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shapewright.references.orientation import AxesBy, Orientation
 from shapewright.references.reference import Reference
-from shapewright.shapes import Mesh
+from shapewright.shapes import Mesh, Points
 
 if TYPE_CHECKING:
     from shapewright.axes.finding import Finding, Kind
@@ -37,11 +38,11 @@ def stood(
     threads: int | None = None,
     recorded: Mapping[str, Mapping[str, Any]] | None = None,
 ) -> tuple[Reference, ...]:
-    """The references as they are found to stand: meshes of which the author does not tell up and front.
+    """The references as they are found to stand: meshes and points of which the author does not tell up and front.
 
     front: the axis of the files that points to the front, where the author says that. taught: shapes of the procedure
     that is to replicate them; they decide before all else. recorded: those that stay as a run found them, see
-    ``found_axes``. Points and drawings stay as they are.
+    ``found_axes``. What lies on its floor keeps its up. Drawings stay as they are.
     """
     from shapewright.axes.finding import Kind
     from shapewright.axes.looks import Looks
@@ -50,8 +51,9 @@ def stood(
     given = [_as_given(each) for each in references]
     free = [i for i, each in enumerate(given) if is_free(each)]
     if any(given[i].name not in known for i in free):
-        looks = Looks.of([shape for i in free if isinstance(shape := given[i].shape, Mesh)], threads)
-        findings = found([given[i].orientation for i in free], looks, front, Kind.taught(taught, threads))
+        looks = Looks.of([shape for i in free if isinstance(shape := given[i].shape, Mesh | Points)], threads)
+        axes = [(given[i].orientation, given[i].axes_by) for i in free]
+        findings = found(axes, looks, front, Kind.taught(taught, threads))
         for i, finding in zip(free, findings, strict=True):
             given[i] = turned(given[i], finding)
     for i in free:
@@ -61,22 +63,33 @@ def stood(
 
 
 def is_free(reference: Reference) -> bool:
-    """Whether its up and front may be found: those of a mesh whose author does not tell them."""
-    return reference.axes_by != "author" and isinstance(reference.shape, Mesh)
+    """Whether its up and front may be found: those of a mesh or points whose author does not tell them."""
+    return reference.axes_by != "author" and isinstance(reference.shape, Mesh | Points)
 
 
-def found(given: Sequence[Orientation], looks: Looks, front: str | None, kind: Kind | None) -> list[Finding]:
+def found(
+    given: Sequence[tuple[Orientation, AxesBy]], looks: Looks, front: str | None, kind: Kind | None
+) -> list[Finding]:
     """How each shape stands, by what is seen of it as it is given.
 
-    given: the axes of their files that point up and to the front as they are. front, kind: see ``stood``.
+    given: the axes of their files that point up and to the front as they are, and who says so. front, kind: see
+    ``stood``.
     """
     from shapewright.axes.finding import told as tell
+
+    if front is None and all(by != "floor" for _, by in given):
+        return tell(looks, None, kind)
+    return tell(looks, np.array([_allowed(axes, by == "floor", front) for axes, by in given]), kind)
+
+
+def _allowed(axes: Orientation, on_floor: bool, front: str | None) -> NDArray[np.bool_]:
+    """(24,): turns that keep what is known; an author who tells a front that a floor rules out is right."""
     from shapewright.axes.turns import TURNS
 
-    allowed = None
-    if front is not None:
-        allowed = np.array([[axes.then(turn).front == front for turn in TURNS] for axes in given])
-    return tell(looks, allowed, kind)
+    after = [axes.then(turn) for turn in TURNS]
+    fronts = np.array([front in (None, each.front) for each in after])
+    both = fronts & np.array([not on_floor or each.up == axes.up for each in after])
+    return both if both.any() else fronts
 
 
 def _as_given(reference: Reference) -> Reference:

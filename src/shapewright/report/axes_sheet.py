@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageDraw
 
+from shapewright.references.orientation import AxesBy
 from shapewright.rendering.cameras import THUMBNAIL
 
 SHEET = "axes.png"
@@ -16,6 +17,13 @@ SHEET = "axes.png"
 _SHOWN, _COLUMNS = 24, 6
 _SIDE, _TEXT = 192, 30  # pixels of a picture, and below it
 _UP, _FRONT, _INK, _PAGE = (214, 96, 0), (0, 96, 190), (60, 60, 60), (255, 255, 255)
+_BY: Mapping[AxesBy, str] = {
+    "found": "found",
+    "author": "as told",
+    "format": "as its format says",
+    "floor": "as its floor lies",
+    "default": "as it is given",
+}
 _REACH = 0.72  # of an arrow, in units of the largest extent
 
 
@@ -47,6 +55,5 @@ def draw_sheet(folder: Path, references: list[dict[str, Any]], axes: Mapping[str
             draw.line(ends, fill=colour, width=2)
             draw.text((ends[1][0] + 4, ends[1][1] - 6), axis, fill=colour)
         draw.text((x + 4, y + _SIDE), reference["name"][:30], fill=_INK)
-        by = {"found": "found", "author": "as told", "format": "as its format says", "default": "as it is given"}
-        draw.text((x + 4, y + _SIDE + 13), f"up {told['up']}, front {told['front']}: {by[told['by']]}", fill=_INK)
+        draw.text((x + 4, y + _SIDE + 13), f"up {told['up']}, front {told['front']}: {_BY[told['by']]}", fill=_INK)
     return sheet

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import trimesh
 
 from shapewright.axes.turns import TURNS
 from shapewright.modelling.solids import box
@@ -9,6 +10,7 @@ from shapewright.references import Collection, Orientation
 from shapewright.references.reading import Readers
 from shapewright.references.standing import axes_record
 from shapewright.shapes.files import encode
+from shapewright.studio.bench import shape_messages
 from shapewright.studio.bench.gallery import Gallery
 from shapewright.studio.bench.standing import Standing
 from shapewright.studio.bench.workshop import Workshop
@@ -70,3 +72,17 @@ def test_pictures_are_kept_by_how_their_shapes_stand(folder, tmp_path):
         assert kept_picture(tmp_path / "cache", source, found).read_bytes() == drawn
     assert plain.picture("0") != turned.picture("0")
     assert plain.unsettled == {*"0123"} and turned.uncertain == {*"0123"}
+
+
+def test_points_are_found_to_stand_too_and_are_measured_along_the_axes_of_their_file(tmp_path):
+    for number, width in enumerate((0.7, 0.8, 1.0, 1.2)):
+        mesh = trimesh.Trimesh(*(seat(width).vertices, seat(width).faces), process=False)
+        np.savetxt(tmp_path / f"{number}.xyz", mesh.sample(3000, seed=0) @ TURNS[7].T)
+    gallery = Gallery(listing(Origin(str(tmp_path), "auto")), None, Readers())
+    stances, _ = ended(Standing().find(gallery, Workshop(), 0))
+    shown = Gallery(gallery.listed, None, Readers(), None, stances)
+    for reference in Collection.load(tmp_path, up="auto"):
+        assert shown[reference.name].orientation == reference.orientation
+    about = shape_messages.about(shown["2"])
+    assert about.units.axes == shown["2"].orientation.matrix.tolist()
+    np.testing.assert_allclose(about.units.size, np.ptp(seat(1.0).vertices @ TURNS[7].T, axis=0), atol=0.02)

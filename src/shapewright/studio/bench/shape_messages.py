@@ -38,7 +38,7 @@ _LEAST = 1e-7  # of the area that a path shows; two equal edges leave slivers of
 
 def about(reference: Reference) -> About:
     """The triangles and notes of a reference, and the way back to its own units and axes."""
-    shape, solid = reference.shape, isinstance(reference.shape, Mesh)
+    shape, solid = reference.shape, isinstance(reference.shape, Mesh | Points)
     extent = (shape.bounds[1] - shape.bounds[0]) / reference.transform.scale
     return About(
         triangles=len(shape.faces) if isinstance(shape, Mesh) else None,

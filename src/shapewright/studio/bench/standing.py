@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from shapewright.axes.finding import SAMPLES, Kind
 from shapewright.axes.looks import Looks
 from shapewright.references.errors import UnreadableError
-from shapewright.references.orientation import Orientation
+from shapewright.references.orientation import AxesBy, Orientation
 from shapewright.references.standing import found, is_free, told
-from shapewright.shapes import Mesh
+from shapewright.shapes import Mesh, Points
 from shapewright.studio.bench.gallery import Gallery, Stance
 from shapewright.studio.bench.workshop import Broken, Workshop
 from shapewright.studio.project.listing import version_of
@@ -25,11 +25,11 @@ _SECONDS = 5.0
 class Seen:
     """What is seen of one reference as its file holds it.
 
-    orientation: the axes of the file that point up and to the front then.
+    axes: those of the file that point up and to the front then, and who says so.
     looks: of one shape.
     """
 
-    orientation: Orientation
+    axes: tuple[Orientation, AxesBy]
     looks: Looks
 
 
@@ -65,7 +65,7 @@ class Standing:
             self.taught = kind is not None
         front = told(gallery.listed.origin.up, gallery.listed.origin.front)[1]
         looks = Looks.joined([seen.looks for seen in known.values()])
-        findings = found([seen.orientation for seen in known.values()], looks, front, kind)
+        findings = found([seen.axes for seen in known.values()], looks, front, kind)
         told_of = dict(zip(known, findings, strict=True))
         return {**{slug: told_of[version] for slug, version in files.items()}, **gallery.recorded}
 
@@ -77,8 +77,8 @@ class Standing:
                 reference = gallery.given(slug)
             except UnreadableError:
                 return None
-            if is_free(reference) and isinstance(reference.shape, Mesh):
-                self._seen[version] = Seen(reference.orientation, Looks.of([reference.shape], 1))
+            if is_free(reference) and isinstance(reference.shape, Mesh | Points):
+                self._seen[version] = Seen((reference.orientation, reference.axes_by), Looks.of([reference.shape], 1))
         return self._seen[version]
 
 

@@ -79,7 +79,7 @@ class Listing:
     def _solid(self) -> dict[str, Source]:
         """Those that have an up and a front to be found."""
         sources = self.sources.items() if self.origin.auto else ()
-        return {slug: one for slug, one in sources if one.path.suffix.lower() in MESHES}
+        return {slug: one for slug, one in sources if one.path.suffix.lower() in (*MESHES, *CLOUDS)}
 
     def kept_picture(self, cache: Path, slug: str, found: Orientation | None = None) -> Path | None:
         """See the function of this name. found: how its shape is turned, where that was found."""
