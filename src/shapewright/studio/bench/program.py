@@ -13,22 +13,20 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from shapewright.judging.judge import target_of
-from shapewright.judging.target import Target
 from shapewright.procedures import Facts
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.reading import Readers
 from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.thumbnails import thumbnail
-from shapewright.search.sizes import likeness
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.studio.bench import messages, shape_messages
-from shapewright.studio.bench.gallery import Gallery, Shelf, Stance, shape_bytes
+from shapewright.studio.bench.gallery import Gallery, Stance
 from shapewright.studio.bench.inbox import Inbox
 from shapewright.studio.bench.residual_colours import ResidualColours
 from shapewright.studio.bench.standing import Standing
 from shapewright.studio.bench.sweep import Sweep
+from shapewright.studio.bench.targets import Targets
 from shapewright.studio.bench.workshop import Broken, Workshop
 from shapewright.studio.project.listing import Listing, listing
 from shapewright.studio.wire.answers import DrawingMessage, FailedMessage
@@ -38,8 +36,6 @@ from shapewright.studio.wire.problems import Problem, of_failure
 from shapewright.studio.wire.requests import Evaluate
 from shapewright.studio.wire.values import Slug, Values
 
-_MEMORY = 24 * 2**20
-
 
 class Bench:
     """Answers the requests of an inbox until one of them is to end."""
@@ -48,10 +44,10 @@ class Bench:
         self._answers, self._inbox, self._workshop = answers, inbox, workshop
         self._readers = Readers(1)
         self._gallery = Gallery(Listing({}, {}), None, self._readers)
-        self._targets: Shelf[Target] = Shelf(_MEMORY, _bytes)
         self._colours: ResidualColours | None = None
         self._cache: Path | None = None
         self._settings = Settings()
+        self._targets = self._new_targets()
         self._root = Path()
         self._first: list[Slug] = []
         self._wanted: dict[Slug, None] = {}  # of which the pictures are still to be drawn
@@ -100,7 +96,7 @@ class Bench:
     def _list(self, request: messages.References) -> None:
         self._cache = Path(request.cache) if request.cache else None
         self._settings = Settings(seed=request.seed, align=request.align)
-        self._targets = Shelf(_MEMORY, _bytes)
+        self._targets = self._new_targets()
         try:
             listed = listing(request.origin)
         except CollectionError:  # the server lists the references too, and reports it to the author
@@ -125,7 +121,7 @@ class Bench:
         """Have the references stand as a procedure with these facts builds, and as they were found to."""
         before = self._gallery
         self._gallery = Gallery(before.listed, self._cache, self._readers, facts, stances)
-        self._targets = Shelf(_MEMORY, _bytes)
+        self._targets = self._new_targets()
         changed = [slug for slug in before.listed.sources if stances.get(slug) != before.stances.get(slug)]
         self._want(before.listed.sources if facts.up != before.facts.up else changed)
 
@@ -177,46 +173,21 @@ class Bench:
             space, defaults = version.parameters, version.defaults
             self._send(messages.Loaded(load=request.load, name=version.name, parameters=space, defaults=defaults))
 
+    def _new_targets(self) -> Targets:
+        return Targets(lambda: self._references, self._settings, self._cache)
+
+    def _measure(self, slug: Slug, shape: Shape) -> tuple[float, float] | None:
+        return self._targets.measure(slug, shape)
+
+    def _unlike(self, slug: Slug, replica: Shape) -> str | None:
+        return self._gallery.unlike(slug, replica) if slug in self._gallery.listed.sources else None
+
     def _sweep(self, request: messages.SweepOrder) -> None:
         if self._workshop.open:
             looked_at = request.sweep, request.items, lambda: self._first
             self._tasks["sweep"] = Sweep(
                 *looked_at, self._root, self._workshop, self._unlike, self._measure, self._send, request.least
             ).run()
-
-    def _target(self, slug: Slug, view: bool = False) -> Target | None:
-        """None for a reference that is not there or cannot be read. view: a picture as one of an object."""
-        key = f"{slug} in view" if view else slug
-        try:
-            if known := self._targets.get(key):
-                return known
-            shape = self._gallery.view(slug).shape if view else self._references[slug].shape
-            return self._targets.put(key, target_of(shape, self._settings, None if view else self._cache))
-        except (KeyError, UnreadableError):
-            return None
-
-    def _suited(self, slug: Slug, replica: Shape) -> Target | None:
-        """The target of a replica: pictures are views of an object to a mesh."""
-        target = self._target(slug)
-        if target and isinstance(target.shape, Drawing) and isinstance(replica, Mesh):
-            return self._target(slug, view=True)
-        return target
-
-    def _unlike(self, slug: Slug, replica: Shape) -> str | None:
-        return self._gallery.unlike(slug, replica) if slug in self._gallery.listed.sources else None
-
-    def _measure(self, slug: Slug, shape: Shape) -> tuple[float, float] | None:
-        """Distance and fidelity of a replica; None for a reference that is not there or cannot be read."""
-        target = self._suited(slug, shape)
-        if target is None:
-            return None
-        replica = shape.normalised()
-        return target.nearest(replica)[0], target.fidelity(replica) * self._same(slug, shape)
-
-    def _same(self, slug: Slug, replica: Shape) -> float:
-        """How like the sizes of reference and replica are; 1 where proportions count alone."""
-        extent = self._references[slug].extent
-        return likeness(replica, extent) if extent else 1.0
 
     def _evaluate(self, client: int, request: Evaluate) -> None:
         """Answer in steps; the later ones are left out when something newer waits."""
@@ -244,7 +215,7 @@ class Bench:
         assert made.shape is not None
         replica = made.shape.normalised()
         head: dict[str, Any] = {"id": number, "slug": slug, "shape": "replica", **shape_messages.outcome(built)}
-        target = self._target(slug) if slug is not None else None
+        target = self._targets.of(slug) if slug is not None else None
         if isinstance(replica, Mesh):
             answer(None, shape_messages.mesh_message(replica, **head))
         else:
@@ -252,9 +223,8 @@ class Bench:
             answer(shape_messages.drawing_message(replica, reference, **head))
         if slug is None or self._inbox.outdated:
             return
-        if slug is not None:
-            target = self._suited(slug, replica)
-        same = self._same(slug, made.shape) if target else 1.0
+        target = self._targets.suited(slug, replica)
+        same = self._targets.same(slug, made.shape) if target else 1.0
         answer(shape_messages.verdict_message(target, replica, number, slug, same))
         if not request.residuals or self._inbox.outdated:
             return
@@ -288,10 +258,6 @@ class Bench:
         if built is None or built.build.shape is None:
             raise ValueError("there is no replica")
         return built.build.shape
-
-
-def _bytes(target: Target) -> int:
-    return 3 * shape_bytes(target.shape)
 
 
 def main() -> None:
