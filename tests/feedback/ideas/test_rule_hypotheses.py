@@ -4,15 +4,13 @@ import numpy as np
 import pytest
 
 from shapewright.feedback.ideas.rule_hypotheses import _shared
-from shapewright.feedback.parts.pieces import Piece
 from shapewright.rules.library import bundled_rules, kinds
 
 RULES = {rule.name: rule for kind in kinds() for rule in bundled_rules(kind)}
-PIECE = Piece("box", np.zeros(3), np.ones(3))
 
 
-def shared(*gains):
-    return _shared([{key: (gain, PIECE) for key, gain in one.items()} for one in gains], RULES)
+def shared(*worths):
+    return _shared(worths, RULES)
 
 
 BACK = ("back",)

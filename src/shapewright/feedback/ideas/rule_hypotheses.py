@@ -16,6 +16,7 @@ from shapewright.threads import in_threads
 
 # Where nothing else is said, chosen on first versions of vessels and buildings.
 _CHOSEN, _EACH = 12, 3  # rules that are fitted to each misfit, and of these in place of one part
+_NONE = 0.01  # of the way to a whole match, that is none
 _ALONE = 0.5  # of what a rule brings to one misfit alone: what several lack is worth writing
 _PRICE = 0.04  # share of what a rule brings, that each of its parameters costs: of those that do as well, the plainest
 _CALLED = 1.25  # times as much a rule has to bring as one that is called what the part is called
@@ -45,7 +46,8 @@ def rule_hypotheses(
     """For each study the hypotheses with one rule that the studies share, the best first; none where none helps."""
     lacks = in_threads(_lacks, studies, workers)
     gains = in_threads(lambda own: _gains(own, rules, gallery), lacks, workers)
-    chosen = _shared(gains, {rule.name: rule for rule in rules})
+    worths = [_worths(own, lack) for own, lack in zip(gains, lacks, strict=True)]
+    chosen = _shared(worths, {rule.name: rule for rule in rules})
 
     def tried(row: int) -> list[Hypothesis]:
         study, blank = studies[row], Hypothesis(before=studies[row].costs([studies[row].replica])[0])
@@ -69,12 +71,23 @@ def _gains(lacks: Mapping[tuple[str, ...], Lack], rules: Sequence[Rule], gallery
     return {(removed, name): gain for removed, several in found.items() for name, gain in several.items()}
 
 
-def _shared(gains: Sequence[Mapping[Key, Gain]], rules: Mapping[str, Rule]) -> list[Key]:
+def _worths(gains: Mapping[Key, Gain], lacks: Mapping[tuple[str, ...], Lack]) -> dict[Key, float]:
+    """What share of the way to a whole match each rule brings the replica, parts that go counted off; those that do.
+
+    What stands in place of a part brings more than what stands beside all parts: else nothing needs to go.
+    """
+    before = lacks[()].match
+    ways = {key: (lacks[key[0]].match + gain - before) / max(1.0 - before, _NONE) for key, (gain, _) in gains.items()}
+    beside = {name: way for (removed, name), way in ways.items() if not removed}
+    return {key: way for key, way in ways.items() if way > (_NONE + beside.get(key[1], 0.0) if key[0] else _NONE)}
+
+
+def _shared(worths: Sequence[Mapping[Key, float]], rules: Mapping[str, Rule]) -> list[Key]:
     """The rules that bring most over all studies; of those that bring about as much, the one with the part's name."""
     several: dict[Key, list[float]] = {}
-    for one in gains:
-        for key, (gain, _) in one.items():
-            several.setdefault(key, []).append(gain)
+    for one in worths:
+        for key, way in one.items():
+            several.setdefault(key, []).append(way)
     net = {key: sum(own) * (1.0 - _PRICE * len(rules[key[1]].space)) for key, own in several.items()}
     worth = {key: net[key] * (1.0 if len(own) > 1 else _ALONE) for key, own in several.items()}
     called = {key for key in worth if any(_is_called(rules[key[1]], label) for label in key[0])}

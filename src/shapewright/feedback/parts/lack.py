@@ -98,7 +98,7 @@ class Lack:
         spacing = math.sqrt(piece.area / len(piece.points))
         after = np.minimum(before, tangent_distances(some, piece.points, piece.normals, spacing))
         precision = (self.kept * self.area + here * piece.area) / (self.area + piece.area)
-        return self._score(after, precision) - self._now
+        return self._score(after, precision) - self.match
 
     @cached_property
     def _some(self) -> tuple[Floats, Floats]:
@@ -106,7 +106,8 @@ class Lack:
         return self.points[::step], self.apart[::step]
 
     @cached_property
-    def _now(self) -> float:
+    def match(self) -> float:
+        """How well the reference and what stays match, 0 to 1."""
         return self._score(self._some[1], self.kept)
 
     def _score(self, apart: Floats, precision: float) -> float:
