@@ -183,7 +183,10 @@ def test_changes_of_parameters_are_undone_and_a_field_shows_what_holds(visit: Vi
     found = field.input_value()
 
     def shows(value: str) -> None:
-        visit.until(f"document.querySelector('[data-parameter=height] .number').value === '{value}'")
+        try:
+            visit.until(f"document.querySelector('[data-parameter=height] .number').value === '{value}'", 5)
+        except AssertionError:
+            raise AssertionError(f"{field.input_value()!r}, not {value!r}") from None
 
     field.fill("0.9")
     field.press("Enter")

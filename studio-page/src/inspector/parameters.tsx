@@ -3,6 +3,7 @@
 import { proposeRange } from "../loop/editing";
 import { MODIFIER } from "../state/keys";
 import type { TargetedKeyboardEvent } from "preact";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { procedure } from "../state/studio";
 import { Button } from "../ui/controls";
 import { percent, shown, significant, words } from "../ui/numbers";
@@ -119,23 +120,32 @@ function Row({ parameter }: { parameter: Parameter }) {
             onClick={() => resetOne(name)}
           />
         )}
-        {kind === "scalar" && (
-          <input
-            class="number"
-            type="number"
-            aria-label={`${name}, typed`}
-            title={meaning || undefined}
-            step="any"
-            disabled={!used}
-            value={significant(Number(value))}
-            onChange={(event) => typed(parameter, event.currentTarget)}
-            onKeyDown={(event) => takeBack(event, significant(Number(value)))}
-          />
-        )}
+        {kind === "scalar" && <NumberField parameter={parameter} text={significant(Number(value))} disabled={!used} />}
         {short && control}
       </div>
       {!short && control}
     </div>
+  );
+}
+
+/** The DOM holds what is being typed: an answer that arrives meanwhile does not take it away. */
+function NumberField({ parameter, text, disabled }: { parameter: Parameter; text: string; disabled: boolean }) {
+  const field = useRef<HTMLInputElement>(null);
+  useLayoutEffect(() => {
+    field.current!.value = text;
+  }, [text]);
+  return (
+    <input
+      class="number"
+      type="number"
+      ref={field}
+      aria-label={`${parameter.name}, typed`}
+      title={parameter.meaning || undefined}
+      step="any"
+      disabled={disabled}
+      onChange={(event) => typed(parameter, event.currentTarget)}
+      onKeyDown={(event) => takeBack(event, parameter)}
+    />
   );
 }
 
@@ -166,18 +176,22 @@ function Beyond({ parameter: { name, low, high }, value }: { parameter: Paramete
 }
 
 /** A typed value is tried, inside the Range or not. What is no number gives way to the value that holds. */
-function typed({ name, kind, default: usual }: Parameter, input: HTMLInputElement): void {
-  const value = kind === "integer" ? Math.round(input.valueAsNumber) : input.valueAsNumber;
-  if (Number.isFinite(value)) set(name, value);
-  else input.value = significant(Number(values.value[name] ?? usual));
+function typed(parameter: Parameter, input: HTMLInputElement): void {
+  const value = input.valueAsNumber;
+  if (Number.isFinite(value)) set(parameter.name, value);
+  else input.value = holds(parameter);
 }
 
+/** What the field of a number shows when nothing is being typed. */
+const holds = ({ name, default: usual }: Parameter): string => significant(Number(values.value[name] ?? usual));
+
 /** Undoing in a field takes first what is typed and not tried yet; never does it show what does not hold. */
-function takeBack(event: TargetedKeyboardEvent<HTMLInputElement>, holds: string): void {
+function takeBack(event: TargetedKeyboardEvent<HTMLInputElement>, parameter: Parameter): void {
   const undoes = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
-  if (!undoes || event.currentTarget.value === holds) return;
+  const now = holds(parameter);
+  if (!undoes || event.currentTarget.value === now) return;
   event.preventDefault();
-  event.currentTarget.value = holds;
+  event.currentTarget.value = now;
 }
 
 function Predicted({ parameter: { name, kind }, value }: { parameter: Parameter; value: Value | null }) {

@@ -52,7 +52,7 @@ _SHOWN = re.compile(
 """Paths that browsers ask for by themselves, as pictures and links, and so without the key."""
 _ARRIVAL = (
     '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0;url=/#key={key}">'
-    '<title>shapewright studio</title><a href="/#key={key}">Open the studio</a>'
+    '<link rel="icon" href="data:,"><title>shapewright studio</title><a href="/#key={key}">Open the studio</a>'
 )
 Headers = Mapping[str, str]
 
