@@ -4,6 +4,8 @@ import pytest
 from shapewright.axes.finding import find
 from shapewright.axes.turns import AFTER, AS_IT_IS, INVERSE, TURNS, UPRIGHT
 from shapewright.modelling.solids import box, cylinder
+from shapewright.prediction.scanning import Scanner, side_cameras
+from shapewright.references.scans.cleaning import cleaned
 from shapewright.shapes import Mesh
 
 
@@ -56,6 +58,34 @@ def test_what_is_told_of_an_axis_is_kept():
     upside_down = turned(CHAIRS[4], AFTER[1, UPRIGHT[0]])
     (found,) = find([upside_down], allowed=up_known, taught=CHAIRS)
     assert found.turn in UPRIGHT
+
+
+def scanned(mesh, seed):
+    """What three sides a little from above see of it: nobody has seen its underside."""
+    scanner = Scanner(side_cameras((30.0, 150.0, 270.0), (25.0, 20.0, 30.0)), 3000)
+    return cleaned(scanner.scan(mesh, np.random.default_rng(seed)))[0].normalised()
+
+
+def drawers(width, height):
+    """A chest whose underside is closed; a scanner does not see that."""
+    shape = box((width, height, 0.5), at=(0, height / 2, 0))
+    for middle in (height / 6, height / 2, height * 5 / 6):
+        shape = shape | box((0.9 * width, 0.28 * height, 0.03), at=(0, middle, 0.255))
+        shape = shape | box((0.2 * width, 0.03, 0.04), at=(0, middle, 0.28))
+    return shape.mesh()
+
+
+def test_scans_are_told_by_what_scans_look_like():
+    chests = [drawers(*size) for size in ((0.6, 0.8), (0.8, 0.7), (0.5, 1.0), (1.0, 0.6), (0.7, 0.9))]
+    found = find([scanned(mesh, seed).transformed(TURNS[13]) for seed, mesh in enumerate(chests)])
+    assert {each.turn for each in found} == {INVERSE[13]}
+
+
+@pytest.mark.parametrize("taught", [(), CHAIRS])
+def test_scans_and_meshes_agree(taught):
+    scans = [scanned(mesh, seed).transformed(TURNS[13]) for seed, mesh in enumerate(CHAIRS[::4])]
+    found = find([*scans, *(turned(mesh, 13) for mesh in CHAIRS[1::4])], taught=taught)
+    assert {each.turn for each in found} == {INVERSE[13]}
 
 
 def test_a_round_table_has_no_front_and_a_box_no_up():

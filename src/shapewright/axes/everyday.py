@@ -1,4 +1,7 @@
-"""What everyday things look like when they stand right, whatever their kind: learned by ``benchmarks/axes.py``."""
+"""What everyday things look like when they stand right, whatever their kind: learned by ``benchmarks/axes.py``.
+
+Points of scanners look otherwise than meshes: their undersides are open, and nothing of them is even.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +36,8 @@ def log_likely(features: Floats, weights: Weights | None = None) -> Floats:
 
 
 @cache
-def everyday() -> Weights:
-    """The weights that come with shapewright."""
-    text = files("shapewright.axes").joinpath("weights.json").read_text(encoding="utf-8")
+def everyday(points: bool = False) -> Weights:
+    """The weights that come with shapewright. points: of things that a scanner has seen from some sides."""
+    name = "weights_of_points.json" if points else "weights.json"
+    text = files("shapewright.axes").joinpath(name).read_text(encoding="utf-8")
     return {name: np.array(values) for name, values in json.loads(text).items()}

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shapewright.axes.agreement import agreement
-from shapewright.axes.everyday import Weights, log_likely, scaled
+from shapewright.axes.everyday import Weights, everyday, log_likely, scaled
 from shapewright.axes.linear import Linear, log_softmax
 from shapewright.axes.looks import ALIKE, Looks
 from shapewright.axes.turns import AFTER, AS_IT_IS, INVERSE, TURNS, UPRIGHT, UPS
@@ -100,8 +100,8 @@ def told(
     weights: Weights | None = None,
 ) -> list[Finding]:
     """``find``, where what is seen is known. weights: of everyday things, others than those that come along."""
-    features = scaled(looks.features, weights)
-    known, doubt, sure = log_likely(features, weights), _DOUBT, _SURE_FRONT
+    features, known = _everyday(looks, weights)
+    doubt, sure = _DOUBT, _SURE_FRONT
     no_matter = np.arange(len(TURNS)) == AS_IT_IS
     if kind is not None:
         theirs = kind.linear.log_likely(features)
@@ -114,6 +114,17 @@ def told(
     likely = agreement(known, doubt).likely
     likely = likely if allowed is None else np.where(allowed, likely, 0.0)
     return [finding(*row, no_matter, sure) for row in zip(likely, looks.apart, strict=True)]
+
+
+def _everyday(looks: Looks, weights: Weights | None) -> tuple[Floats, Floats]:
+    """Features (N, 24, F), scaled, and logarithms of likelihoods (N, 24); points and meshes by weights of their own."""
+    features, known = np.empty_like(looks.features), np.empty(looks.features.shape[:2])
+    for points in (False, True):
+        rows = looks.points == points
+        of_kind = weights or everyday(points)
+        features[rows] = scaled(looks.features[rows], of_kind)
+        known[rows] = log_likely(features[rows], of_kind)
+    return features, known
 
 
 def _doubted(logs: Floats, doubt: float) -> Floats:

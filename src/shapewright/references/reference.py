@@ -39,6 +39,7 @@ class Reference:
         notes: what of the file was left out.
         axes_by: who says that it is to be turned so.
         finding: how its up and front were looked for; None where they were not.
+        given_by: who said how it is turned before they were found.
         unit: that of the file, in metres, where the file or its format states it; else None.
         extent: the longest side that its replicas are to have, in the procedure's unit; None where proportions count
             alone.
@@ -57,6 +58,7 @@ class Reference:
     extent: float | None = None
     part_of: str | None = None
     finding: Finding | None = None
+    given_by: AxesBy = "default"
     switches: Switches = field(default_factory=Switches)
 
     @cached_property

@@ -98,17 +98,15 @@ def _as_given(reference: Reference) -> Reference:
 
     if (before := reference.finding) is None:
         return reference
-    by: AxesBy = "default" if reference.axes_by == "found" else reference.axes_by
-    return replace(reference.after(TURNS[INVERSE[before.turn]]), axes_by=by, finding=None)
+    return replace(reference.after(TURNS[INVERSE[before.turn]]), axes_by=reference.given_by, finding=None)
 
 
 def turned(reference: Reference, finding: Finding) -> Reference:
     """A reference as it is given, turned as it was found to stand."""
     from shapewright.axes.turns import AS_IT_IS, TURNS
 
-    if finding.turn == AS_IT_IS:
-        return replace(reference, finding=finding)
-    return replace(reference.after(TURNS[finding.turn]), axes_by="found", finding=finding)
+    given = replace(reference, finding=finding, given_by=reference.axes_by)
+    return given if finding.turn == AS_IT_IS else replace(given.after(TURNS[finding.turn]), axes_by="found")
 
 
 def recalled(reference: Reference, record: Mapping[str, Any]) -> Reference:
@@ -121,7 +119,7 @@ def recalled(reference: Reference, record: Mapping[str, Any]) -> Reference:
     if "sure_up" in record:
         turn = turn_index(orientation.matrix @ given.orientation.matrix.T)
         finding = Finding(turn, record["sure_up"], record["sure_front"], record["has_up"], record["fronts"])
-    return replace(given.stood(orientation), axes_by=record["by"], finding=finding)
+    return replace(given.stood(orientation), axes_by=record["by"], finding=finding, given_by=given.axes_by)
 
 
 def axes_record(reference: Reference) -> dict[str, Any]:
