@@ -56,7 +56,14 @@ def wrong_names(text):
         if command not in COMMANDS:
             yield f"shapewright {command}"
             continue
-        offered = {flag for option in COMMANDS[command].params for flag in (*option.opts, *option.secondary_opts)}
+        called = COMMANDS[command]
+        inner = re.match(r" ([a-z]+)", rest)
+        if commands := getattr(called, "commands", None):  # of a group the next word is the command
+            if inner is None or inner[1] not in commands:
+                yield f"shapewright {command}{inner[0] if inner else ''}"
+                continue
+            called = commands[inner[1]]
+        offered = {flag for option in called.params for flag in (*option.opts, *option.secondary_opts)}
         flags = re.findall(r"--[a-z-]+", re.split(r"[.)#] ", rest)[0])  # another sentence may be about another command
         yield from (f"{command} {flag}" for flag in flags if flag not in offered | {"--help"})
     for dotted in re.findall(r"\b(?:shapewright|sw)\.([A-Za-z_]+(?:\.[a-z_]+)*)", text):
@@ -71,7 +78,15 @@ def test_what_is_named_exists(path):
 
 def test_a_name_that_is_not_there_is_noticed():
     text = "call shapewright.explane or sw.fitt, or: shapewright repair RUN; shapewright fit P R --explian"
-    wrong = ["shapewright repair", "fit --explian", "shapewright.explane", "shapewright.fitt"]
+    text += "; shapewright samples merge A --out B; shapewright samples join; shapewright samples merge --into B"
+    wrong = [
+        "shapewright repair",
+        "fit --explian",
+        "shapewright samples join",
+        "samples --into",
+        "shapewright.explane",
+        "shapewright.fitt",
+    ]
     assert list(wrong_names(text)) == wrong
 
 

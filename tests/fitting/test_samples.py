@@ -2,14 +2,15 @@
 
 import csv
 import json
+from dataclasses import replace
 
 import pytest
 import trimesh
 
 import shapewright as sw
 from shapewright import load_procedure
-from shapewright.fitting import samples as sampling
 from shapewright.fitting.samples import Samples, write_samples
+from shapewright.fitting.sampling import making, packing
 from shapewright.runs.folder import RunError
 
 SOURCE = """
@@ -92,7 +93,7 @@ def test_the_files_do_not_depend_on_the_number_of_workers(stool, tmp_path):
 
 
 def test_a_stopped_run_is_gone_on_with(stool, tmp_path, monkeypatch):
-    monkeypatch.setattr(sampling, "_CHUNK", 4)
+    monkeypatch.setattr(packing, "FILES", replace(packing.FILES, size=4))
     whole, stopped = tmp_path / "whole", tmp_path / "stopped"
     write_samples(stool, 12, whole, workers=1)
 
@@ -143,8 +144,8 @@ def test_a_folder_of_other_things_is_left_alone(stool, tmp_path):
 
 
 def test_a_full_disk_leaves_what_is_listed_whole(stool, tmp_path, monkeypatch):
-    monkeypatch.setattr(sampling, "_CHUNK", 4)
-    encode, count = sampling.encode, []
+    monkeypatch.setattr(packing, "FILES", replace(packing.FILES, size=4))
+    encode, count = making.encode, []
 
     def full(*arguments):
         count.append(1)
@@ -152,7 +153,7 @@ def test_a_full_disk_leaves_what_is_listed_whole(stool, tmp_path, monkeypatch):
             raise OSError(28, "No space left on device")
         return encode(*arguments)
 
-    monkeypatch.setattr(sampling, "encode", full)
+    monkeypatch.setattr(making, "encode", full)
     with pytest.raises(RunError, match=r"No space left on device; .*repeat the command to go on"):
         write_samples(stool, 12, tmp_path / "out", workers=1)
     monkeypatch.undo()

@@ -15,7 +15,7 @@ from shapewright.cli.fits import fit
 from shapewright.cli.projects import demo, new
 from shapewright.cli.rules import rules
 from shapewright.cli.runs import compare, explain, mark, parameters, report
-from shapewright.cli.shape_files import describe, sample, silhouettes
+from shapewright.cli.shape_files import describe, sample, samples, silhouettes
 from shapewright.cli.studio import studio
 from shapewright.procedures import ProcedureError
 from shapewright.references.errors import CollectionError
@@ -33,6 +33,7 @@ _SHAPES = (describe, sample, silhouettes)
 for command in (new, check, fit, explain, mark, evaluate, *_SHAPES, report, parameters, compare, studio, demo):
     app.command()(command)
 app.add_typer(rules, name="rules")
+app.add_typer(samples, name="samples")
 
 
 def main() -> None:

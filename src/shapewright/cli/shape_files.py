@@ -14,12 +14,20 @@ from rich.table import Table
 from shapewright.cli.bars import interruptible
 from shapewright.cli.console import err, out, print_json
 from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers, option
+from shapewright.fitting.sampling.formats import FileFormat
+from shapewright.fitting.sampling.shards import Shard
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError, load_procedure
 from shapewright.procedures.sets import read_sets
 from shapewright.settings import Settings
-from shapewright.shapes.files import Format
 from shapewright.storage import file_names, printable
+
+
+def _shard(text: str) -> Shard:
+    try:
+        return Shard.parse(text)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from None
 
 
 def sample(
@@ -31,7 +39,21 @@ def sample(
         ),
     ],
     count: Annotated[int, typer.Option("-n", "--count", min=1, help="How many shapes.")] = 10,
-    format: Annotated[Format, typer.Option(help="Kind of file; drawings are written as SVG.")] = "glb",
+    format: Annotated[
+        FileFormat,
+        typer.Option(
+            help="Kind of file; drawings are written as SVG. wds: tars of 1,000 samples, as WebDataset reads them."
+        ),
+    ] = "glb",
+    shard: Annotated[
+        Shard | None,
+        typer.Option(
+            parser=_shard,
+            metavar="K/M",
+            help="Write part K of M alone, from 1/M to M/M, each in a folder of its own; "
+            "[bold]shapewright samples merge[/] joins them.",
+        ),
+    ] = None,
     parameters: Annotated[
         Path | None,
         typer.Option(help="Build what a file lists: OpenSCAD's parameter sets (JSON), or a CSV with a header."),
@@ -49,7 +71,7 @@ def sample(
     given = None if parameters is None else _listed(parameters, author)
     count = count if given is None else len(given)
     with interruptible(f"what {MANIFEST} lists is whole; the same command adds the others") as listen:
-        samples = write_samples(
+        written = write_samples(
             author,
             count,
             folder,
@@ -59,16 +81,41 @@ def sample(
             lambda done, total: listen(Progress("sample", done, total)),
             given,
             verbose,
+            shard=shard,
         )
-    if not samples.shapes:
-        raise ProcedureError(f"none of {count} shapes could be built: {samples.failures}")
-    if samples.failures:
-        err.print(f"[yellow]failed:[/] {escape(samples.failures)}", highlight=False)
+    if written.failed and not written.shapes and not shard:
+        raise ProcedureError(f"none of {count} shapes could be built: {written.failures}")
+    if written.failures:
+        err.print(f"[yellow]failed:[/] {escape(written.failures)}", highlight=False)
     if json:
-        print_json({"out": str(folder), "manifest": str(folder / MANIFEST), **asdict(samples)})
+        print_json({"out": str(folder), "manifest": str(folder / MANIFEST), **asdict(written)})
     else:
-        unsound = f", {samples.unsound} of them unsound," if samples.unsound else ""
-        out.print(f"{samples.shapes} shapes{unsound} and {MANIFEST} in {escape(str(out_dir))}", highlight=False)
+        unsound = f", {written.unsound} of them unsound," if written.unsound else ""
+        out.print(f"{written.shapes} shapes{unsound} and {MANIFEST} in {escape(str(out_dir))}", highlight=False)
+
+
+samples = typer.Typer(no_args_is_help=True, help="Folders of samples: join the shards of many machines.")
+
+
+@samples.command()
+def merge(
+    shards: Annotated[list[Path], typer.Argument(help="Folders that [bold]shapewright sample --shard[/] has written.")],
+    out_dir: Annotated[Path, typer.Option("--out", help="A new folder for all their samples.")],
+    json: Json = False,
+) -> None:
+    """Join all shards of the same samples: to the bit what one command without --shard writes.
+
+    The shards stay as they are.
+    """
+    from shapewright.fitting.sampling.manifest import MANIFEST
+    from shapewright.fitting.sampling.merging import merge as merge_shards
+
+    folder = out_dir.absolute()
+    listed = merge_shards([shard.absolute() for shard in shards], folder)
+    if json:
+        print_json({"out": str(folder), "manifest": str(folder / MANIFEST), "shards": len(shards), "samples": listed})
+    else:
+        out.print(f"{listed} samples of {len(shards)} shards in {escape(str(out_dir))}", highlight=False)
 
 
 def _listed(path: Path, author: Procedure) -> dict[str, Parameters]:

@@ -7,36 +7,28 @@ names one that is not.
 
 from __future__ import annotations
 
-import csv
-import hashlib
-import io
-import json
-from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Generator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
 from functools import partial
+from itertools import islice
 from pathlib import Path
-from typing import Any
 
 from shapewright.building import Build, Workers, describe_failures
+from shapewright.fitting.sampling import manifest
+from shapewright.fitting.sampling.drawing import Drawn
+from shapewright.fitting.sampling.formats import FileFormat, shape_format
+from shapewright.fitting.sampling.making import Form, Made, made
+from shapewright.fitting.sampling.manifest import COLUMNS, MANIFEST, RECORD, Row
+from shapewright.fitting.sampling.packing import Packing, packing
+from shapewright.fitting.sampling.shards import Shard
 from shapewright.parameters import Parameters
-from shapewright.procedures import Facts, Procedure, source_digest
+from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
-from shapewright.runs.folder import RunError, check_free
-from shapewright.runs.versions import version_of
-from shapewright.shapes import Drawing, Mesh
-from shapewright.shapes.files import Format, encode
-from shapewright.shapes.soundness import Soundness
-from shapewright.storage import remove_leftovers, whole_file, write_file
-from shapewright.threads import cores
+from shapewright.runs.folder import RunError
+from shapewright.threads import in_threads
 
-MANIFEST, RECORD = "manifest.csv", "manifest.samples.json"
-_FORMAT = 1
-_CHUNK = 256
-"""Shapes after which the manifest is written, at least; an eighth of those before, so that this costs little."""
-_MEASURES = tuple(field.name for field in fields(Soundness))
-COLUMNS = ("path", "sound", *_MEASURES, "failure")
-"""Columns of a manifest that are no parameters."""
+__all__ = ["COLUMNS", "MANIFEST", "RECORD", "Samples", "sample", "write_samples"]
 
 
 @dataclass(frozen=True)
@@ -69,108 +61,86 @@ def write_samples(
     procedure: Procedure,
     count: int,
     folder: Path,
-    format: Format = "glb",
+    format: FileFormat = "glb",
     seed: int = 0,
     workers: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     given: Mapping[str, Parameters] | None = None,
     shown: bool = False,
+    *,
+    shard: Shard | None = None,
 ) -> Samples:
     """Write shapes at ``count`` random parameter vectors and a manifest of these with the soundness of each shape.
 
-    given: parameters by the name of their file, in place of random ones. shown: see ``Workers``.
+    given: parameters by the name of their file, in place of random ones. shown: see ``Workers``. shard: which part of
+    the samples is written; all shards together hold to the bit what one folder of all would hold.
 
     A folder that holds the first samples of the same procedure, seed and format is resumed. Drawings are written as
     SVG; they have no soundness. Raises RunError when the folder holds something else or cannot be written (what is
     there is then whole), ProcedureError when the procedure is broken.
     """
-    if given is None:
-        vectors = procedure.space.sample(count, seed=seed)
-        names = [f"{procedure.name}-{i:05d}" for i in range(count)]
-    else:
-        vectors, names = list(given.values()), list(given)
-    record = _record(procedure, format, seed, given)
-    write = partial(_write_shape, folder, format=format, record=record, facts=procedure.facts)
-    header = [COLUMNS[0], *procedure.space.names, *COLUMNS[1:]]
-    rows: list[list[str]] = []
-
-    def step(done: int, _: int) -> None:
-        if progress:
-            progress(len(rows) + done, len(vectors))
-
+    drawn = Drawn.of(procedure, count, seed, given, shard)
+    vectors, pack = drawn.vectors, packing(format)
+    record = manifest.record_of(procedure, format, seed, given)
+    form = Form(shape_format(format), {key: record[key] for key in ("procedure", "version", "seed")}, procedure.facts)
+    if shard:
+        record = manifest.of_shard(record, shard, drawn.count, len(vectors))
+    columns = manifest.header(procedure.space.names)
+    failed: list[Build] = []
     try:
-        rows = _resume(folder, record, vectors)
-        failed: list[Build] = []
-        with Workers(procedure, workers, shown=shown) as crew, ThreadPoolExecutor(workers or cores()) as pool:
+        rows = _kept(manifest.resume(folder, record, columns, vectors), drawn.start, len(vectors), pack)
+        first = listed = len(rows)
+
+        def step(done: int) -> None:
+            if progress:
+                progress(first + done, len(vectors))
+
+        begins = drawn.start + first == 0
+        with closing(_made(procedure, vectors[first:], form, pack.size, workers, shown, step, begins)) as samples:
             while len(rows) < len(vectors):
-                chunk = vectors[len(rows) : len(rows) + max(_CHUNK, len(rows) // 8)]
-                builds = crew.build(chunk, step, give_up=not rows)
-                failed += [build for build in builds if build.failure]
-                rows += pool.map(write, names[len(rows) : len(rows) + len(chunk)], builds)
-                table = io.StringIO(newline="")
-                csv.writer(table).writerows([header, *rows])
-                write_file(folder / MANIFEST, table.getvalue())
+                number, before = divmod(drawn.start + len(rows), pack.size)
+                chunk = list(islice(samples, pack.size - before))
+                failed += [Build(one.parameters, None, one.failure) for one in chunk if one.failure]
+                names = drawn.names[len(rows) : len(rows) + len(chunk)]
+                paths = pack.write(folder, procedure.name, number, form, list(zip(names, chunk, strict=True)))
+                rows += map(manifest.row, chunk, paths)
+                if len(rows) == len(vectors) or len(rows) - listed >= listed // 8:  # so listing costs little
+                    manifest.write(folder, columns, rows)
+                    listed = len(rows)
     except OSError as error:
         raise RunError(
             f"{folder}: cannot be written: {error.strerror or error}; the shapes in its manifest are whole: "
             "repeat the command to go on"
         ) from error
     written = [row for row in rows if row[0]]
-    unsound = sum(row[header.index("sound")] == "False" for row in written)
+    unsound = sum(row[columns.index("sound")] == "False" for row in written)
     failures = describe_failures(failed) if failed else ""
     return Samples(len(written), unsound, len(rows) - len(written), failures)
 
 
-def _record(
-    procedure: Procedure, format: str, seed: int, given: Mapping[str, Parameters] | None = None
-) -> dict[str, Any]:
-    """What ``RECORD`` holds. The digest is not that of runs: with another value no older folder could resume."""
-    return {
-        "format": _FORMAT,
-        "procedure": procedure.name,
-        "source": hashlib.blake2b(procedure.source.encode(), digest_size=8).hexdigest(),
-        "files": format,
-        "seed": seed,
-        "version": version_of("shapewright"),
-        **({} if given is None else {"parameters": source_digest(json.dumps(given))}),
-    }
+def _kept(rows: list[Row], start: int, count: int, pack: Packing) -> list[Row]:
+    """The rows of samples that are not written again: a tar that is not full is."""
+    if not pack.whole or len(rows) == count:
+        return rows
+    return rows[: max(0, (start + len(rows)) // pack.size * pack.size - start)]
 
 
-def _resume(folder: Path, record: dict[str, Any], vectors: Sequence[Parameters]) -> list[list[str]]:
-    """The rows of the manifest that a folder has already; a new folder is begun."""
-    if not (folder / RECORD).exists():
-        check_free(folder)
-        folder.mkdir(parents=True, exist_ok=True)
-        write_file(folder / RECORD, json.dumps(record, indent=1))
-    remove_leftovers(folder, age=0.0)
-    try:
-        begun = json.loads((folder / RECORD).read_text(encoding="utf-8"))
-        lines = (folder / MANIFEST).read_text(encoding="utf-8") if (folder / MANIFEST).exists() else ""
-    except ValueError as error:
-        raise RunError(f"{folder / RECORD}: cannot be read: {error}") from error
-    if begun != record:
-        differing = ", ".join(key for key in record if begun.get(key) != record[key])
-        raise RunError(f"{folder}: there are samples of another kind here (other {differing}); name another folder")
-    rows = list(csv.reader(io.StringIO(lines)))[1:][: len(vectors)]
-    for row, vector in zip(rows, vectors, strict=False):
-        if row[1 : 1 + len(vector)] != [str(value) for value in vector.values()]:
-            raise RunError(f"{folder}: its samples are not the first of these {len(vectors)}; name another folder")
-    return rows
+def _made(
+    procedure: Procedure,
+    vectors: Sequence[Parameters],
+    form: Form,
+    size: int,
+    workers: int | None,
+    shown: bool,
+    step: Callable[[int], object],
+    give_up: bool,
+) -> Generator[Made, None, None]:
+    """The samples in order. size: of what is built at once. give_up: of the first, see ``Workers.build``."""
+    with Workers(procedure, workers, shown=shown) as crew:
+        for at in range(0, len(vectors), size):
 
+            def told(done: int, _: int, at: int = at) -> None:
+                step(at + done)
 
-def _write_shape(
-    folder: Path, name: str, build: Build, format: Format, record: dict[str, Any], facts: Facts
-) -> list[str]:
-    """Write one shape, in the procedure's axes but for GLB, which is Y up; returns its row of the manifest."""
-    values, soundness = [str(value) for value in build.parameters.values()], [""] * (1 + len(_MEASURES))
-    if build.shape is None:
-        return ["", *values, *soundness, str(build.failure)]
-    extras = {key: record[key] for key in ("procedure", "version", "seed")} | {"parameters": dict(build.parameters)}
-    shape = build.shape if format == "glb" else facts.laid(build.shape)
-    path = f"{name}.{'svg' if isinstance(build.shape, Drawing) else format}"
-    with whole_file(folder / path) as partial:
-        partial.write_bytes(encode(shape, format, extras | facts.stated, facts.metres))
-    if isinstance(build.shape, Mesh):
-        state = build.shape.soundness()
-        soundness = [str(state.sound), *(str(getattr(state, name)) for name in _MEASURES)]
-    return [path, *values, *soundness, ""]
+            builds = crew.build(vectors[at : at + size], told, give_up and at == 0)
+            yield from in_threads(partial(made, form=form), builds, workers)

@@ -117,15 +117,19 @@ class ParameterSpace:
         Inactive parameters are at their default, so no two vectors mean the same shape. The product of the steps is
         never materialised, unless it is small.
         """
+        return list(self.draw(count, seed))
+
+    def draw(self, count: int, seed: int = 0) -> Iterator[Parameters]:
+        """The vectors of ``sample``, one after the other: who needs the first few only does not draw the rest."""
         if count < 0:
             raise ValueError(f"cannot sample {count} vectors")
         rng = np.random.default_rng(seed)
         if self.combinations <= max(_ENUMERABLE, 4 * count):
             levels = [[(p.name, level) for level in p.levels or ()] for p in self.parameters]
             every = list(self.different(map(dict, product(*levels))))
-            return [every[i] for i in rng.permutation(len(every))[:count]]
+            return iter([every[i] for i in rng.permutation(len(every))[:count]])
         draws = ({p.name: p.sample(rng) for p in self.parameters} for _ in range(_DRAWS_PER_VECTOR * count))
-        return list(islice(self.different(draws), count))
+        return islice(self.different(draws), count)
 
     def different(self, vectors: Iterable[Mapping[str, Value]]) -> Iterator[Parameters]:
         """The vectors, each canonical, without those that equal one before."""

@@ -1,0 +1,1 @@
+"""Folders of samples: what is drawn, made of each vector, listed; shards of them, and how these are joined."""
