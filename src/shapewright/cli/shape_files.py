@@ -54,6 +54,12 @@ def sample(
             "[bold]shapewright samples merge[/] joins them.",
         ),
     ] = None,
+    like: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="RUN", help="Draw more of what the references of a run showed, each as well as it is replicated."
+        ),
+    ] = None,
     parameters: Annotated[
         Path | None,
         typer.Option(help="Build what a file lists: OpenSCAD's parameter sets (JSON), or a CSV with a header."),
@@ -67,6 +73,8 @@ def sample(
     from shapewright.fitting.samples import MANIFEST, write_samples
     from shapewright.progress import Progress
 
+    if parameters and like:
+        raise typer.BadParameter("--parameters lists what is built, so nothing is drawn --like a run: leave one out")
     author, folder = load_procedure(procedure), out_dir.absolute()
     given = None if parameters is None else _listed(parameters, author)
     count = count if given is None else len(given)
@@ -82,6 +90,7 @@ def sample(
             given,
             verbose,
             shard=shard,
+            like=like,
         )
     if written.failed and not written.shapes and not shard:
         raise ProcedureError(f"none of {count} shapes could be built: {written.failures}")

@@ -18,6 +18,7 @@ from shapewright.building import Build, Workers, describe_failures
 from shapewright.fitting.sampling import manifest
 from shapewright.fitting.sampling.drawing import Drawn
 from shapewright.fitting.sampling.formats import FileFormat, shape_format
+from shapewright.fitting.sampling.likeness import Likeness
 from shapewright.fitting.sampling.making import Form, Made, made
 from shapewright.fitting.sampling.manifest import COLUMNS, MANIFEST, RECORD, Row
 from shapewright.fitting.sampling.packing import Packing, packing
@@ -42,17 +43,26 @@ class Samples:
 
 
 def sample(
-    procedure: Procedure, count: int, seed: int = 0, workers: int | None = None, progress: Listener | None = None
+    procedure: Procedure,
+    count: int,
+    seed: int = 0,
+    workers: int | None = None,
+    progress: Listener | None = None,
+    *,
+    like: str | Path | None = None,
 ) -> list[Build]:
     """Shapes at ``count`` random parameter vectors: ``build.parameters``, ``build.shape``.
 
     ``build.failure`` says why where the shape is None. The same seed gives the same vectors. workers: processes, all
-    cores by default. Raises ProcedureError when the procedure cannot be loaded.
+    cores by default. like: the folder of a run; what its references showed is drawn more often, see ``Likeness``.
+
+    Raises ProcedureError when the procedure cannot be loaded, RunError when a run shows nothing.
     """
+    drawn = Drawn.of(procedure, count, seed, like=_likeness(like, procedure))
     stages = Stages(progress)
-    stages.begin("sample", count)
+    stages.begin("sample", len(drawn.vectors))
     with Workers(procedure, workers) as crew:
-        builds = crew.build(procedure.space.sample(count, seed=seed), stages.step)
+        builds = crew.build(drawn.vectors, stages.step)
     stages.end()
     return builds
 
@@ -69,19 +79,21 @@ def write_samples(
     shown: bool = False,
     *,
     shard: Shard | None = None,
+    like: str | Path | None = None,
 ) -> Samples:
     """Write shapes at ``count`` random parameter vectors and a manifest of these with the soundness of each shape.
 
     given: parameters by the name of their file, in place of random ones. shown: see ``Workers``. shard: which part of
-    the samples is written; all shards together hold to the bit what one folder of all would hold.
+    the samples is written; all shards together hold to the bit what one folder of all would hold. like: see ``sample``.
 
     A folder that holds the first samples of the same procedure, seed and format is resumed. Drawings are written as
     SVG; they have no soundness. Raises RunError when the folder holds something else or cannot be written (what is
     there is then whole), ProcedureError when the procedure is broken.
     """
-    drawn = Drawn.of(procedure, count, seed, given, shard)
+    likeness = _likeness(like, procedure)
+    drawn = Drawn.of(procedure, count, seed, given, shard, likeness)
     vectors, pack = drawn.vectors, packing(format)
-    record = manifest.record_of(procedure, format, seed, given)
+    record = manifest.record_of(procedure, format, seed, given, likeness)
     form = Form(shape_format(format), {key: record[key] for key in ("procedure", "version", "seed")}, procedure.facts)
     if shard:
         record = manifest.of_shard(record, shard, drawn.count, len(vectors))
@@ -116,6 +128,10 @@ def write_samples(
     unsound = sum(row[columns.index("sound")] == "False" for row in written)
     failures = describe_failures(failed) if failed else ""
     return Samples(len(written), unsound, len(rows) - len(written), failures)
+
+
+def _likeness(run: str | Path | None, procedure: Procedure) -> Likeness | None:
+    return None if run is None else Likeness.of_run(Path(run).expanduser(), procedure.space)
 
 
 def _kept(rows: list[Row], start: int, count: int, pack: Packing) -> list[Row]:

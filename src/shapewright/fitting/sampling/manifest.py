@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from shapewright.fitting.sampling.likeness import Likeness
 from shapewright.fitting.sampling.making import MEASURES, Made
 from shapewright.fitting.sampling.shards import Shard
 from shapewright.parameters import Parameters
@@ -39,7 +40,11 @@ def row(sample: Made, path: str) -> Row:
 
 
 def record_of(
-    procedure: Procedure, files: str, seed: int, given: Mapping[str, Parameters] | None = None
+    procedure: Procedure,
+    files: str,
+    seed: int,
+    given: Mapping[str, Parameters] | None = None,
+    like: Likeness | None = None,
 ) -> dict[str, Any]:
     """What ``RECORD`` holds. The digest is not that of runs: with another value no older folder could resume."""
     return {
@@ -50,6 +55,7 @@ def record_of(
         "seed": seed,
         "version": version_of("shapewright"),
         **({} if given is None else {"parameters": source_digest(json.dumps(given))}),
+        **({} if like is None else {"like": like.digest}),
     }
 
 
