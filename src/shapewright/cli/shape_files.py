@@ -64,6 +64,9 @@ def sample(
         Path | None,
         typer.Option(help="Build what a file lists: OpenSCAD's parameter sets (JSON), or a CSV with a header."),
     ] = None,
+    parquet: Annotated[
+        bool, typer.Option("--parquet", help="Write the manifest as Parquet as well; needs shapewright[scale].")
+    ] = False,
     seed: Seed = Settings.seed,
     workers: Workers = None,
     verbose: Annotated[bool, option("verbose")] = False,
@@ -91,6 +94,7 @@ def sample(
             verbose,
             shard=shard,
             like=like,
+            parquet=parquet,
         )
     if written.failed and not written.shapes and not shard:
         raise ProcedureError(f"none of {count} shapes could be built: {written.failures}")

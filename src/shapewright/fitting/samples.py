@@ -16,6 +16,7 @@ from pathlib import Path
 
 from shapewright.building import Build, Workers, describe_failures
 from shapewright.fitting.sampling import manifest
+from shapewright.fitting.sampling import parquet as tables
 from shapewright.fitting.sampling.drawing import Drawn
 from shapewright.fitting.sampling.formats import FileFormat, shape_format
 from shapewright.fitting.sampling.likeness import Likeness
@@ -80,16 +81,21 @@ def write_samples(
     *,
     shard: Shard | None = None,
     like: str | Path | None = None,
+    parquet: bool = False,
 ) -> Samples:
     """Write shapes at ``count`` random parameter vectors and a manifest of these with the soundness of each shape.
 
     given: parameters by the name of their file, in place of random ones. shown: see ``Workers``. shard: which part of
     the samples is written; all shards together hold to the bit what one folder of all would hold. like: see ``sample``.
+    parquet: whether the manifest is written as Parquet as well; a folder that has it keeps it.
 
     A folder that holds the first samples of the same procedure, seed and format is resumed. Drawings are written as
     SVG; they have no soundness. Raises RunError when the folder holds something else or cannot be written (what is
     there is then whole), ProcedureError when the procedure is broken.
     """
+    parquet = parquet or (folder / tables.PARQUET).exists()
+    if parquet:
+        tables.check_installed()
     likeness = _likeness(like, procedure)
     drawn = Drawn.of(procedure, count, seed, given, shard, likeness)
     vectors, pack = drawn.vectors, packing(format)
@@ -119,6 +125,8 @@ def write_samples(
                 if len(rows) == len(vectors) or len(rows) - listed >= listed // 8:  # so listing costs little
                     manifest.write(folder, columns, rows)
                     listed = len(rows)
+        if parquet:
+            tables.write(folder, tables.types_of(procedure.space))
     except OSError as error:
         raise RunError(
             f"{folder}: cannot be written: {error.strerror or error}; the shapes in its manifest are whole: "

@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from shapewright.fitting.sampling import manifest
+from shapewright.fitting.sampling import manifest, parquet
 from shapewright.fitting.sampling.manifest import COLUMNS, Record, Row
 from shapewright.fitting.sampling.packing import join_tars
 from shapewright.fitting.sampling.shards import Shard
@@ -30,11 +30,13 @@ class _Part:
 def merge(folders: Sequence[Path], out: Path) -> int:
     """Join folders of shards into a new folder, whole or not at all; returns how many samples it lists.
 
-    The new folder is to the bit what one command without ``--shard`` writes. The shards stay as they are: their files
-    are linked where the disk can do that, else copied. Raises RunError when one is missing, unfinished, twice there,
-    or of other samples, and when ``out`` holds something already.
+    The new folder is to the bit what one command without ``--shard`` writes, the manifest in Parquet included if all
+    shards have it. The shards stay as they are: their files are linked where the disk can do that, else copied. Raises
+    RunError when one is missing, unfinished, twice there or of other samples, and when ``out`` holds something already.
     """
     parts = _ordered([_part(folder) for folder in folders])
+    if tabled := all((part.folder / parquet.PARQUET).is_file() for part in parts):
+        parquet.check_installed()
     with new_folder(out) as whole:
         for name, places in _files(parts).items():
             if len(places) == 1:
@@ -44,6 +46,8 @@ def merge(folders: Sequence[Path], out: Path) -> int:
         rows = [row for part in parts for row in part.rows]
         manifest.write_record(whole, manifest.of_all(parts[0].record))
         manifest.write(whole, parts[0].columns, rows)
+        if tabled:
+            parquet.write(whole, parquet.types_in(parts[0].folder))
     return len(rows)
 
 
