@@ -109,9 +109,9 @@ def test_workers_serve_several_requests_and_report_progress(part):
     told = []
     with Workers(part, 1, LIMITS) as crew:
         first = crew.build(vectors(*["none"] * 100), lambda done, total: told.append((done, total)))
-        processes = [worker._worker.process for worker in crew._pool.idle]
+        processes = [worker._worker.process for worker in crew.builders.pool.idle]
         second = crew.build(vectors("none"))
-        assert [worker._worker.process for worker in crew._pool.idle] == processes
+        assert [worker._worker.process for worker in crew.builders.pool.idle] == processes
     assert len(first) == 100 and len(second) == 1 and told[-1] == (100, 100)
     assert all(process.poll() is not None for process in processes)
 
@@ -125,13 +125,15 @@ def test_workers_turn_to_another_procedure_and_keep_their_processes(part, tmp_pa
     asked = vectors("none", "raises", "none")
     with Workers(part, 1, LIMITS) as crew:
         first = crew.build(asked)
-        processes = [worker._worker.process for worker in crew._pool.idle]
+        processes = [worker._worker.process for worker in crew.builders.pool.idle]
         crew.turn_to(sw.load_procedure(other))
         second = crew.build(asked)
-        assert [worker._worker.process for worker in crew._pool.idle] == processes and crew.procedure.path == other
+        assert [
+            worker._worker.process for worker in crew.builders.pool.idle
+        ] == processes and crew.procedure.path == other
         with pytest.raises(sw.ProcedureError, match="not any more"):
             crew.turn_to(lost)
-        assert crew._pool.idle == [] and all(process.poll() is not None for process in processes)
+        assert crew.builders.pool.idle == [] and all(process.poll() is not None for process in processes)
         crew.turn_to(part)
         assert outcome(crew.build(asked)) == outcome(first)
     assert np.array_equal(second[0].shape.vertices, 2.0 * first[0].shape.vertices)

@@ -1,8 +1,20 @@
 """Building many shapes in worker processes that a bad procedure cannot take down with it."""
 
+from shapewright.building.executors import Executor, ExecutorError
 from shapewright.building.opened import Opened, is_own
 from shapewright.building.outcomes import Build, Failure, commonest_place, describe_failures
 from shapewright.building.pool import Workers
 from shapewright.processes import Limits
 
-__all__ = ["Build", "Failure", "Limits", "Opened", "Workers", "commonest_place", "describe_failures", "is_own"]
+__all__ = [
+    "Build",
+    "Executor",
+    "ExecutorError",
+    "Failure",
+    "Limits",
+    "Opened",
+    "Workers",
+    "commonest_place",
+    "describe_failures",
+    "is_own",
+]

@@ -1,28 +1,19 @@
-"""Building many shapes: in worker processes that a bad procedure cannot take down with it.
-
-Each worker is a fresh interpreter (``python -m shapewright.building.worker``), so an author's script needs no
-``__main__`` guard and nothing is inherited from a process that runs torch. Shapes travel in slices; when a worker dies
-or hangs, its slice is built again one shape at a time, so that only the shape at fault is lost.
-"""
+"""Building many shapes: in worker processes that a bad procedure cannot take down with it, here or elsewhere."""
 
 from __future__ import annotations
 
-import pickle
-import queue
-import sys
-import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
+from typing import TypeVar, cast
 
-import cloudpickle
-
+from shapewright.building.builders import Builders
+from shapewright.building.executors import Elsewhere, Executor
 from shapewright.building.opened import Opened
-from shapewright.building.outcomes import Build, Failure, commonest_place, describe_failures
-from shapewright.building.process import WorkerProcess
+from shapewright.building.outcomes import Build, commonest_place, describe_failures
+from shapewright.building.sent import Sent
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError
 from shapewright.processes import Limits
-from shapewright.processes.pool import Pool
 from shapewright.settings import Settings
 from shapewright.threads import cores, in_threads
 
@@ -30,14 +21,17 @@ SLICE = 64
 """Shapes in one request to a worker, at most."""
 _PROBES = (3, 8)
 """First shapes that say whether a procedure is broken: all too slow, or all failed."""
+Finished = TypeVar("Finished")
 
 
 class Workers:
     """Worker processes that build shapes of one procedure at a time; a context manager.
 
-    The results are in the order of the request and do not depend on the number of workers.
+    The results are in the order of the request and do not depend on the number of workers, nor on where they are.
 
+    count: how many build at the same time; one a core by default.
     shown: what the author's code prints goes to standard error; by default its last lines are kept for failures.
+    executor: builds on other machines; by default this one builds.
 
     Attributes:
         home: the folder of the first procedure's file, None where it has none: what it reads lies there.
@@ -46,7 +40,12 @@ class Workers:
     """
 
     def __init__(
-        self, procedure: Procedure, count: int | None = None, limits: Limits | None = None, shown: bool = False
+        self,
+        procedure: Procedure,
+        count: int | None = None,
+        limits: Limits | None = None,
+        shown: bool = False,
+        executor: Executor | None = None,
     ) -> None:
         self.procedure = procedure
         self.home = procedure.path.parent if procedure.path else None
@@ -55,14 +54,19 @@ class Workers:
         self.limits = replace(limits, seconds=procedure.seconds) if procedure.seconds else limits
         self.costs: list[float] = []
         self.opened: set[Opened] = set()
-        self._payload, self._shown = _payload(procedure), shown
-        self._pool = Pool(lambda: WorkerProcess(self._payload, self.limits, shown), self.count)
+        self._send = Sent.outward if executor else Sent.of
+        sent = self._send(procedure)
+        self.builders: Builders | Elsewhere = (
+            Elsewhere(executor, sent, self.limits, shown)
+            if executor
+            else Builders(sent, self.count, self.limits, shown)
+        )
 
     @classmethod
-    def of(cls, procedure: Procedure, settings: Settings) -> Workers:
+    def of(cls, procedure: Procedure, settings: Settings, executor: Executor | None = None) -> Workers:
         """As many as the settings say, with their limits of what building one shape may cost."""
         limits = Limits(settings.shape_seconds, settings.shape_memory_mb)
-        return cls(procedure, settings.workers, limits, settings.verbose)
+        return cls(procedure, settings.workers, limits, settings.verbose, executor)
 
     def __enter__(self) -> Workers:
         return self
@@ -71,21 +75,16 @@ class Workers:
         self.close()
 
     def close(self) -> None:
-        """End the processes."""
-        self._pool.close()
+        """End the processes of this machine."""
+        self.builders.close()
 
     def turn_to(self, procedure: Procedure) -> None:
         """Build shapes of another procedure from now on, in the same processes: starting a process takes far longer.
 
         Raises ProcedureError when the procedure does not load there.
         """
-        self._payload, self.procedure = _payload(procedure), procedure
-        try:
-            for worker in self._pool.idle:
-                worker.load(self._payload)
-        except ProcedureError:
-            self._pool.close()
-            raise
+        self.procedure = procedure
+        self.builders.load(self._send(procedure))
 
     def build(
         self,
@@ -100,96 +99,68 @@ class Workers:
         """
         results: list[Build | None] = [None] * len(parameters)
         done = 0
+
+        def took(row: int, build: Build) -> None:
+            results[row] = build
+            self.opened.update(build.opened)
+            if build.seconds:  # nobody knows those of a shape that was lost with its process
+                self.costs.append(build.seconds)
+
+        def tick() -> None:
+            if progress:
+                progress(sum(result is not None for result in results), len(results))
+
         for count in _PROBES if give_up else ():
             probes = range(done, min(count, len(parameters)))
-            self._run(parameters, [probes[i : i + 1] for i in range(len(probes))], results, progress)
+            self.builders.run(parameters, [probes[i : i + 1] for i in range(len(probes))], took, tick)
             done = max(done, probes.stop)
             _give_up_if_broken([result for result in results[:done] if result is not None], count)
-        size = max(1, min(SLICE, (len(parameters) - done) // (4 * self.count)))
-        slices = [range(i, min(i + size, len(parameters))) for i in range(done, len(parameters), size)]
-        self._run(parameters, slices, results, progress)
-        return [result for result in results if result is not None]
+        self.builders.run(parameters, self._slices(range(done, len(parameters))), took, tick)
+        return cast(list[Build], results)
+
+    def make(
+        self,
+        parameters: Sequence[Parameters],
+        finish: Callable[[Build], Finished],
+        progress: Callable[[int], object] = lambda done: None,
+        give_up: bool = False,
+        wave: int = 256,
+    ) -> Generator[Finished, None, None]:
+        """What ``finish`` makes of every vector's build, in order; it is called where the shape is built.
+
+        finish: a function of a module, or a ``partial`` of one, so that it can be sent. give_up: as of ``build``.
+        wave: shapes of this machine that are held until something is made of them.
+        """
+
+        def begun(done: int, _: int) -> None:
+            progress(done)
+
+        first = self.build(parameters[: _PROBES[-1]], begun, give_up=True) if give_up else []
+        yield from in_threads(finish, first, self.count)
+        rest = range(len(first), len(parameters))
+        if isinstance(self.builders, Elsewhere):
+            chunks = [[parameters[i] for i in piece] for piece in self._slices(rest)]
+            for done, finished in enumerate(self.builders.stream(chunks, finish), len(first) + 1):
+                progress(done)
+                yield finished
+            return
+        for start in rest[::wave]:
+
+            def told(done: int, _: int, start: int = start) -> None:
+                progress(start + done)
+
+            yield from in_threads(finish, self.build(parameters[start : start + wave], told), self.count)
 
     def elsewhere(self, builds: Sequence[Build]) -> list[Build]:
         """The same shapes built again, each in another process than the one that it was built in.
 
         Where that process ends, the shapes that it was still to build stay as they are.
         """
-        if not builds:
-            return []
-        while len(self._pool.idle) < 2:
-            self._pool.idle.append(WorkerProcess(self._payload, self.limits, self._shown))
-        homes = {worker.number: worker for worker in self._pool.idle}
-        asked: dict[WorkerProcess, list[int]] = {}
-        for i, build in enumerate(builds):
-            other = next(worker for number, worker in homes.items() if number != build.process)
-            asked.setdefault(other, []).append(i)
-        results = list(builds)
+        return self.builders.elsewhere(builds) if builds else []
 
-        def serve(item: tuple[WorkerProcess, list[int]]) -> None:
-            worker, rows = item
-            for i in rows:
-                made = worker.build([builds[i].parameters], threading.Event())
-                results[i] = Build(builds[i].parameters, None, made) if isinstance(made, Failure) else made[0]
-                if isinstance(made, Failure):
-                    worker.stop()
-                    self._pool.idle.remove(worker)
-                    return
-
-        in_threads(serve, list(asked.items()), len(asked))
-        for worker in self._pool.idle[self.count :]:
-            worker.stop()
-        del self._pool.idle[self.count :]
-        return results
-
-    def _run(
-        self,
-        parameters: Sequence[Parameters],
-        slices: list[range],
-        results: list[Build | None],
-        progress: Callable[[int, int], None] | None,
-    ) -> None:
-        tasks: queue.SimpleQueue[range] = queue.SimpleQueue()
-        for piece in slices:
-            tasks.put(piece)
-
-        def serve(worker: WorkerProcess, piece: range, stop: threading.Event) -> WorkerProcess | None:
-            return self._serve(worker, parameters, piece, results, tasks, stop)
-
-        def tick() -> None:
-            if progress:
-                progress(sum(result is not None for result in results), len(results))
-
-        self._pool.run(tasks, serve, tick)
-
-    def _serve(
-        self,
-        worker: WorkerProcess,
-        parameters: Sequence[Parameters],
-        piece: range,
-        results: list[Build | None],
-        tasks: queue.SimpleQueue[range],
-        stop: threading.Event,
-    ) -> WorkerProcess | None:
-        """Build one slice; returns the worker, or None when it had to be ended."""
-        outcome = worker.build([parameters[i] for i in piece], stop)
-        if isinstance(outcome, Failure):
-            worker.stop()
-            if stop.is_set():
-                return None
-            if len(piece) == 1:
-                results[piece[0]] = Build(parameters[piece[0]], None, outcome)
-            else:
-                for i in piece:
-                    tasks.put(range(i, i + 1))
-            return None
-        for i, build in zip(piece, outcome, strict=False):
-            results[i] = build
-            self.costs.append(build.seconds)
-            self.opened.update(build.opened)
-        if len(outcome) < len(piece):
-            tasks.put(piece[len(outcome) :])
-        return worker
+    def _slices(self, rows: range) -> list[range]:
+        size = max(1, min(SLICE, len(rows) // (4 * self.count)))
+        return [rows[i : i + size] for i in range(0, len(rows), size)]
 
 
 def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:
@@ -198,16 +169,3 @@ def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:
     if len(probes) >= enough and hopeless:
         message = f"every one of the first {len(probes)} shapes failed: {describe_failures(probes)}"
         raise ProcedureError(message, commonest_place(probes), summary=True)
-
-
-def _payload(procedure: Procedure) -> bytes:
-    target = f"{procedure.path}:{procedure.name}" if procedure.path else procedure
-    try:
-        # What the procedure needs is found by this process's path: a worker needs that before it reads the procedure.
-        return pickle.dumps((list(sys.path), procedure.working, bytes(cloudpickle.dumps(target))))
-    except Exception as error:
-        raise ProcedureError(
-            f"it cannot be sent to the worker processes ({error}); "
-            "put the procedure in a file of its own and load it with load_procedure",
-            procedure.place,
-        ) from error

@@ -8,6 +8,7 @@ import sys
 import typer
 from rich.markup import escape
 
+from shapewright.building import ExecutorError
 from shapewright.cli.checks import check
 from shapewright.cli.console import err, print_json
 from shapewright.cli.evaluations import evaluate
@@ -45,7 +46,7 @@ def main() -> None:
         app()
     except KeyboardInterrupt:
         sys.exit(130)
-    except (ProcedureError, CollectionError, RunError, ProjectError, ValueError, OSError) as error:
+    except (ProcedureError, CollectionError, RunError, ProjectError, ExecutorError, ValueError, OSError) as error:
         err.print(f"[bold red]error:[/] {escape(str(error))}", highlight=False, soft_wrap=True)
         if "--json" in sys.argv:
             print_json({"error": str(error)})

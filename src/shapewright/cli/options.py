@@ -11,8 +11,10 @@ from typing import Annotated, Any, Literal, TypeVar
 
 import typer
 
+from shapewright.building.clusters import ClusterName
 from shapewright.settings import Preset, Settings, described
 
+Parsed = TypeVar("Parsed")
 FLAGS = {"shape_seconds": "--time-limit", "shape_memory_mb": "--memory-limit", "verbose": "--verbose"}
 """Options that have another name than their setting."""
 
@@ -38,6 +40,18 @@ def seconds_of(text: str) -> float:
     return float(found[1]) * {"m": 60.0, "min": 60.0, "h": 3600.0}.get(found[2], 1.0)
 
 
+def parsed(parse: Callable[[str], Parsed]) -> Callable[[str], Parsed]:
+    """A parser of an option's text, whose ValueError becomes an error of the command line."""
+
+    def read(text: str) -> Parsed:
+        try:
+            return parse(text)
+        except ValueError as error:
+            raise typer.BadParameter(str(error)) from None
+
+    return read
+
+
 ProcedureArgument = Annotated[
     Path,
     typer.Argument(
@@ -50,6 +64,15 @@ PRESET = typer.Option("--preset", help="fast is made for laptops; paper is the p
 PresetOption = Annotated[Preset, PRESET]
 Seed = Annotated[int, option("seed")]
 Workers = Annotated[int | None, option("workers")]
+ClusterOption = Annotated[
+    ClusterName | None,
+    typer.Option(
+        "--cluster",
+        parser=parsed(ClusterName.parse),
+        metavar="CLUSTER",
+        help="Build on other machines: dask:ADDRESS of a scheduler, or dask:local:N for N processes of this one.",
+    ),
+]
 Up = Annotated[
     str, typer.Option(help="The axis of the files that points up: x, y, z, -x, -y, -z; auto finds up and front.")
 ]

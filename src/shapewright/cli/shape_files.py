@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -13,7 +14,7 @@ from rich.table import Table
 
 from shapewright.cli.bars import interruptible
 from shapewright.cli.console import err, out, print_json
-from shapewright.cli.options import Front, Json, ProcedureArgument, Seed, Up, Workers, option
+from shapewright.cli.options import ClusterOption, Front, Json, ProcedureArgument, Seed, Up, Workers, option, parsed
 from shapewright.fitting.sampling.formats import FileFormat
 from shapewright.fitting.sampling.shards import Shard
 from shapewright.parameters import Parameters
@@ -21,13 +22,6 @@ from shapewright.procedures import Procedure, ProcedureError, load_procedure
 from shapewright.procedures.sets import read_sets
 from shapewright.settings import Settings
 from shapewright.storage import file_names, printable
-
-
-def _shard(text: str) -> Shard:
-    try:
-        return Shard.parse(text)
-    except ValueError as error:
-        raise typer.BadParameter(str(error)) from None
 
 
 def sample(
@@ -48,7 +42,7 @@ def sample(
     shard: Annotated[
         Shard | None,
         typer.Option(
-            parser=_shard,
+            parser=parsed(Shard.parse),
             metavar="K/M",
             help="Write part K of M alone, from 1/M to M/M, each in a folder of its own; "
             "[bold]shapewright samples merge[/] joins them.",
@@ -68,11 +62,13 @@ def sample(
         bool, typer.Option("--parquet", help="Write the manifest as Parquet as well; needs shapewright[scale].")
     ] = False,
     seed: Seed = Settings.seed,
+    cluster: ClusterOption = None,
     workers: Workers = None,
     verbose: Annotated[bool, option("verbose")] = False,
     json: Json = False,
 ) -> None:
     """Write random shapes of a procedure, or those that a file lists, and a table of their parameters and soundness."""
+    from shapewright.building.clusters import opened
     from shapewright.fitting.samples import MANIFEST, write_samples
     from shapewright.progress import Progress
 
@@ -81,20 +77,22 @@ def sample(
     author, folder = load_procedure(procedure), out_dir.absolute()
     given = None if parameters is None else _listed(parameters, author)
     count = count if given is None else len(given)
-    with interruptible(f"what {MANIFEST} lists is whole; the same command adds the others") as listen:
+    stopped = f"what {MANIFEST} lists is whole; the same command adds the others"
+    with opened(cluster) if cluster else nullcontext() as there, interruptible(stopped) as listen:
         written = write_samples(
             author,
             count,
             folder,
             format,
             seed,
-            workers,
+            workers or (there.count if there else None),
             lambda done, total: listen(Progress("sample", done, total)),
             given,
             verbose,
             shard=shard,
             like=like,
             parquet=parquet,
+            executor=there.executor if there else None,
         )
     if written.failed and not written.shapes and not shard:
         raise ProcedureError(f"none of {count} shapes could be built: {written.failures}")

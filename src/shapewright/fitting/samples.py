@@ -7,20 +7,20 @@ names one that is not.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from pathlib import Path
 
-from shapewright.building import Build, Workers, describe_failures
+from shapewright.building import Build, Executor, ExecutorError, Workers, describe_failures
 from shapewright.fitting.sampling import manifest
 from shapewright.fitting.sampling import parquet as tables
 from shapewright.fitting.sampling.drawing import Drawn
 from shapewright.fitting.sampling.formats import FileFormat, shape_format
 from shapewright.fitting.sampling.likeness import Likeness
-from shapewright.fitting.sampling.making import Form, Made, made
+from shapewright.fitting.sampling.making import Form, made
 from shapewright.fitting.sampling.manifest import COLUMNS, MANIFEST, RECORD, Row
 from shapewright.fitting.sampling.packing import Packing, packing
 from shapewright.fitting.sampling.shards import Shard
@@ -28,7 +28,6 @@ from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Stages
 from shapewright.runs.folder import RunError
-from shapewright.threads import in_threads
 
 __all__ = ["COLUMNS", "MANIFEST", "RECORD", "Samples", "sample", "write_samples"]
 
@@ -51,18 +50,24 @@ def sample(
     progress: Listener | None = None,
     *,
     like: str | Path | None = None,
+    executor: Executor | None = None,
 ) -> list[Build]:
     """Shapes at ``count`` random parameter vectors: ``build.parameters``, ``build.shape``.
 
     ``build.failure`` says why where the shape is None. The same seed gives the same vectors. workers: processes, all
     cores by default. like: the folder of a run; what its references showed is drawn more often, see ``Likeness``.
 
-    Raises ProcedureError when the procedure cannot be loaded, RunError when a run shows nothing.
+    executor: builds on other machines, and changes nothing in the shapes: ``client.get_executor()`` of dask, one of
+    ``concurrent.futures``, or whatever has ``submit(function, *args)`` and gives futures. ``workers`` says then how
+    many build at the same time.
+
+    Raises ProcedureError when the procedure cannot be loaded, RunError when a run shows nothing, ExecutorError when an
+    executor loses the same work twice.
     """
     drawn = Drawn.of(procedure, count, seed, like=_likeness(like, procedure))
     stages = Stages(progress)
     stages.begin("sample", len(drawn.vectors))
-    with Workers(procedure, workers) as crew:
+    with Workers(procedure, workers, executor=executor) as crew:
         builds = crew.build(drawn.vectors, stages.step)
     stages.end()
     return builds
@@ -82,11 +87,13 @@ def write_samples(
     shard: Shard | None = None,
     like: str | Path | None = None,
     parquet: bool = False,
+    executor: Executor | None = None,
 ) -> Samples:
     """Write shapes at ``count`` random parameter vectors and a manifest of these with the soundness of each shape.
 
     given: parameters by the name of their file, in place of random ones. shown: see ``Workers``. shard: which part of
     the samples is written; all shards together hold to the bit what one folder of all would hold. like: see ``sample``.
+    executor: see ``sample``; other machines make the files' contents as well, and this one writes them.
     parquet: whether the manifest is written as Parquet as well; a folder that has it keeps it.
 
     A folder that holds the first samples of the same procedure, seed and format is resumed. Drawings are written as
@@ -113,8 +120,18 @@ def write_samples(
             if progress:
                 progress(first + done, len(vectors))
 
-        begins = drawn.start + first == 0
-        with closing(_made(procedure, vectors[first:], form, pack.size, workers, shown, step, begins)) as samples:
+        with (
+            Workers(procedure, workers, shown=shown, executor=executor) as crew,
+            closing(
+                crew.make(
+                    vectors[first:],
+                    partial(made, form=form),
+                    step,
+                    give_up=drawn.start + first == 0,
+                    wave=pack.size,
+                )
+            ) as samples,
+        ):
             while len(rows) < len(vectors):
                 number, before = divmod(drawn.start + len(rows), pack.size)
                 chunk = list(islice(samples, pack.size - before))
@@ -132,6 +149,10 @@ def write_samples(
             f"{folder}: cannot be written: {error.strerror or error}; the shapes in its manifest are whole: "
             "repeat the command to go on"
         ) from error
+    except ExecutorError as error:
+        raise RunError(
+            f"{folder}: {error}; the shapes in its manifest are whole: repeat the command to go on"
+        ) from error
     written = [row for row in rows if row[0]]
     unsound = sum(row[columns.index("sound")] == "False" for row in written)
     failures = describe_failures(failed) if failed else ""
@@ -147,24 +168,3 @@ def _kept(rows: list[Row], start: int, count: int, pack: Packing) -> list[Row]:
     if not pack.whole or len(rows) == count:
         return rows
     return rows[: max(0, (start + len(rows)) // pack.size * pack.size - start)]
-
-
-def _made(
-    procedure: Procedure,
-    vectors: Sequence[Parameters],
-    form: Form,
-    size: int,
-    workers: int | None,
-    shown: bool,
-    step: Callable[[int], object],
-    give_up: bool,
-) -> Generator[Made, None, None]:
-    """The samples in order. size: of what is built at once. give_up: of the first, see ``Workers.build``."""
-    with Workers(procedure, workers, shown=shown) as crew:
-        for at in range(0, len(vectors), size):
-
-            def told(done: int, _: int, at: int = at) -> None:
-                step(at + done)
-
-            builds = crew.build(vectors[at : at + size], told, give_up and at == 0)
-            yield from in_threads(partial(made, form=form), builds, workers)

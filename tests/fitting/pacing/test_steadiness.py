@@ -62,7 +62,7 @@ def test_one_worker_finds_it_too_and_keeps_no_process_more(tmp_path):
     rock = sw.load_procedure(path)
     with Workers(rock, 1) as crew:
         told = unsteady(crew, crew.build(rock.space.sample(8, seed=0)))
-        assert len(crew._pool.idle) == 1
+        assert len(crew.builders.pool.idle) == 1
     assert told is not None and "8 of 8 times" in told.text
 
 
