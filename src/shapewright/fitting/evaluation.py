@@ -8,7 +8,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from shapewright.building import Workers
+from shapewright.building import Executor, Workers
 from shapewright.fitting.learning import Lesson, learn
 from shapewright.fitting.pacing.pace import paced
 from shapewright.fitting.pacing.stock import Stock
@@ -45,17 +45,19 @@ def evaluate(
     seeds: Sequence[int] | None = None,
     progress: Listener | None = None,
     refined: int = REFINED,
+    executor: Executor | None = None,
 ) -> list[Evaluation]:
     """Train once for each seed, and measure; by default once, with the settings' own seed.
 
-    refined: most held-out samples that the search is measured on. Raises ProcedureError as ``fit`` does.
+    refined: most held-out samples that the search is measured on. executor: builds the shapes on other machines, see
+    ``sample``. Raises ProcedureError and ExecutorError as ``fit`` does.
     """
     settings = settings or Settings()
     evaluations = []
     for seed in [settings.seed] if seeds is None else seeds:
         chosen = replace(settings, seed=seed)
         stages = Stages(progress)
-        with Workers.of(procedure, chosen) as crew:
+        with Workers.of(procedure, chosen, executor) as crew:
             stock = Stock(crew)
             chosen = paced(stock, chosen, stages)
             lesson = learn(crew, chosen, stages, stock=stock)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
-from shapewright.building import Workers
+from shapewright.building import Executor, Workers
 from shapewright.fitting.facing import quarter_turns
 from shapewright.fitting.learning import learn, learn_more
 from shapewright.fitting.pacing.opening import Opening
@@ -36,6 +36,7 @@ def fit(
     previous: Iteration | None = None,
     known: Mapping[str, Sequence[Parameters]] | None = None,
     opening: Opening | None = None,
+    executor: Executor | None = None,
 ) -> Iteration:
     """One iteration: find parameters for every reference, and say which the procedure cannot replicate yet.
 
@@ -52,17 +53,23 @@ def fit(
         previous: an iteration with an earlier version of the procedure, to resume. Its parameters, network and cameras
             are carried over, which takes a third of the time.
         known: parameters that are worth a trial, by the name of their reference: those of a suggestion, for instance.
-        opening: the procedure's first samples with these settings, where they are being built already.
+        opening: the procedure's first samples with these settings, where they are being built already; its workers
+            build all else as well.
+        executor: builds the shapes of samples and of the search on other machines, see ``sample``; all else stays here.
 
     Raises:
         ProcedureError: the procedure cannot build shapes.
         CollectionError: no picture can be read as one of an object; a reference to leave out is none, or nothing is
             left.
+        ExecutorError: an executor lost the same work twice.
+        ValueError: there are both an opening and an executor.
     """
+    if opening and executor:
+        raise ValueError("the workers of an opening build here: leave out the opening or the executor")
     settings = settings or Settings()
     references = references if references.taught else stand(procedure, references, settings, progress, previous)
     references = for_procedure(references, procedure)
-    with nullcontext(opening.crew) if opening else Workers.of(procedure, settings) as crew:
+    with nullcontext(opening.crew) if opening else Workers.of(procedure, settings, executor) as crew:
         first = opening.builds() if opening else []
         references = prepared(suited(references, crew), settings, settings.workers)
         like = following(references, settings, settings.workers)
