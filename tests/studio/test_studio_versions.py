@@ -51,8 +51,11 @@ def test_back_at_a_fitted_text_its_own_replicas_and_counts_are_shown(fitted: Stu
     fitted.edit(PROCEDURE.replace("(1.0, 0.08, 0.7)", "(1.0, 0.5, 0.3)"))
     edited = fitted.wait_for(lambda s: measured(s) and {t["stage"] for t in tiles(s)} == {"carried"})
     assert stale(edited) == [] and edited["collection"]["tiles"] != before["tiles"]
+    assert edited["procedure"]["stale"]  # its replicas are of this text, its run is not
     fitted.edit(PROCEDURE)
-    again = fitted.wait_for(lambda s: {t["stage"] for t in tiles(s)} == {"trained"})["collection"]
+    state = fitted.wait_for(lambda s: {t["stage"] for t in tiles(s)} == {"trained"})
+    again = state["collection"]
+    assert not state["procedure"]["stale"]
     assert again["counts"] == before["counts"] and again["tiles"] == before["tiles"]
 
 

@@ -216,7 +216,7 @@ def _compare(session: Session, request: Request) -> Comparison:
     names = [request.query_params.get(side, "") for side in ("before", "after")]
     before, after = (session.project.run(name) for name in names)
     runs = {run.run: run for run in session.runs()}
-    return comparison(before, after, runs, session.display.slugs(), session.display.pictures.add_file)
+    return comparison(before, after, runs, session.display.board.slugs, session.display.pictures.add_file)
 
 
 def _apply(session: Session, request: Request, order: requests.ApplyOrder) -> requests.Replaced | requests.Copied:

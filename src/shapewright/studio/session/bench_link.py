@@ -94,7 +94,7 @@ class BenchLink:
 
     def guess(self, stage: Stage, items: Mapping[Slug, Values]) -> None:
         """Show replicas with these parameters, where they are better than what is shown, or than the defaults."""
-        number, shown = self._display.begin_sweep(stage, list(items)), self._display.parameters
+        number, shown = self._display.begin_sweep(stage, list(items)), self._display.board.parameters
         least = {slug: self._authored.values(shown.get(slug)) for slug in items}
         self.process.ask(SweepOrder(sweep=number, items=dict(items), least=least))
 

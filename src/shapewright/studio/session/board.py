@@ -93,6 +93,17 @@ class Board:
         """Whether a replica is of another version."""
         return any(state.stale(self.version) for state in self.references.values())
 
+    @property
+    def parameters(self) -> dict[Slug, Parameters]:
+        """Those of all replicas that are known."""
+        states = self.references.items()
+        return {slug: state.parameters for slug, state in states if state.parameters is not None}
+
+    @property
+    def slugs(self) -> dict[str, Slug]:
+        """By name."""
+        return {state.name: slug for slug, state in self.references.items()}
+
     def collection(self) -> Collection:
         """As the page gets it."""
         tiles = [state.tile(self.standard, self.version) for state in self.references.values()]

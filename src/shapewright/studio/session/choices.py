@@ -56,7 +56,7 @@ class Choices:
     def marking(self) -> Marking:
         """The pairs that were marked, of references that are there; what they say, and what to mark next."""
         shown = self._display.board.standard.settings
-        return marking(self._project.folder, self._display.run, self._display.slugs(), self.settings, shown)
+        return marking(self._project.folder, self._display.run, self._display.board.slugs, self.settings, shown)
 
     def change(self, given: dict[str, Any]) -> changes.ChosenSettings:
         """Raises ValueError for an entry that cannot be, ProjectError where they cannot be kept."""

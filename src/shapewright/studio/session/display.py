@@ -26,7 +26,7 @@ from shapewright.studio.session.standard import CUTS, Standard
 from shapewright.studio.wire.changes import CollectionChanged, TilesChanged
 from shapewright.studio.wire.collection import Axes, Stage
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.values import Slug, Values
+from shapewright.studio.wire.values import Slug
 
 _SETTLE = 0.04
 """Seconds for which changed tiles are gathered into one message."""
@@ -102,6 +102,14 @@ class Display:
     def _is_of_version(self, run: Path, record: Mapping[str, Any]) -> bool:
         return record["procedure"]["digest"] == self._digest and unchanged_beside(run, self.project.procedure)
 
+    @property
+    def outdated(self) -> bool:
+        """Whether another version made the run that is shown, whatever its replicas are by now."""
+        try:
+            return self.run is not None and not self._is_of_version(self.run, read_record(self.run))
+        except RunError:
+            return True
+
     def show(self, run: Path | None, standard: Standard) -> None:
         """Show a run, or references alone, to the pages. standard: of references without a run."""
         self.stop_sweep()
@@ -170,16 +178,6 @@ class Display:
         axes = self._axes(self.run)
         states = self.board.references.items()
         return [slug for slug, one in states if one.reference is None or self._kept(slug, axes.get(slug)) is None]
-
-    @property
-    def parameters(self) -> dict[Slug, Values]:
-        """Those of all replicas that are known."""
-        states = self.board.references.items()
-        return {slug: state.parameters for slug, state in states if state.parameters is not None}
-
-    def slugs(self) -> dict[str, Slug]:
-        """By name."""
-        return {state.name: slug for slug, state in self.board.references.items()}
 
     def _made_by(self, run: Path) -> str | None:
         """The version that made a run."""

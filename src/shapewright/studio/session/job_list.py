@@ -115,6 +115,6 @@ class JobList:
 
     def _guessed(self, event: Guessed) -> None:
         if event.kind in _STAGES:
-            slugs = self._display.slugs()
+            slugs = self._display.board.slugs
             known = {slugs[name]: values for name, values in event.answer.items() if name in slugs}
             self._bench.guess(_STAGES[event.kind], known)

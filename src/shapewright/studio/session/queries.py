@@ -67,7 +67,7 @@ def run_detail(session: Session, name: str) -> RunDetail:
 
 def explanation(session: Session) -> Explanation:
     """Of the run that is shown: what the run's file says, by slug, with addresses of pictures. Raises Missing."""
-    run, slugs = session.display.run, session.display.slugs()
+    run, slugs = session.display.run, session.display.board.slugs
     if run is None or not session.explained:
         raise Missing("there is no explanation of this run yet")
     record = session.display.explanation

@@ -105,7 +105,7 @@ class Session:
 
     def _procedure(self) -> Procedure:
         runs = self.runs()
-        return self.authored.procedure(self.display.board.stale, runs[-1].digest if runs else None)
+        return self.authored.procedure(self.display.outdated, runs[-1].digest if runs else None)
 
     # What pages ask for
 
@@ -144,7 +144,7 @@ class Session:
         self._show(self.display.run or self.display.newest())
         self._measure_anew()
         if self.authored.state == "good" and self.display.board.stale:
-            self.bench.sweep("carried", self.display.parameters)
+            self.bench.sweep("carried", self.display.board.parameters)
 
     def runs_changed(self) -> None:
         """Runs or explanations came or went; one that the command line makes of this procedure is shown."""
@@ -221,7 +221,7 @@ class Session:
         if fitted:
             self._show(fitted)  # even where it is shown: an edit since may have put its own replicas there
         else:
-            self.bench.sweep("carried", self.display.parameters)
+            self.bench.sweep("carried", self.display.board.parameters)
         self.pages.publish(changes.ProcedureChanged(procedure=self._procedure()))
         self.bench.evaluate_waiting()
         if saved and not fitted and self.choices.preferences.auto_fit and self.display.listed.sources:

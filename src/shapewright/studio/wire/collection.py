@@ -93,7 +93,7 @@ class Procedure(Struct, frozen=True, kw_only=True):
     """The procedure on disk."""
 
     state: Literal["loading", "good", "broken"]  # when broken, the parameters are those of the last good version
-    stale: bool  # the collection shows an older version than the file on disk
+    stale: bool  # another version than the file on disk made the run that is shown
     name: str
     digest: str  # of the text on disk
     fitted: str | None  # digest of the version that the newest fit used

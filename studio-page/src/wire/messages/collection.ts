@@ -112,7 +112,7 @@ export interface Parameter {
 export interface Procedure {
   /** when broken, the parameters are those of the last good version. */
   state: "loading" | "good" | "broken";
-  /** the collection shows an older version than the file on disk. */
+  /** another version than the file on disk made the run that is shown. */
   stale: boolean;
   name: string;
   /** of the text on disk. */
