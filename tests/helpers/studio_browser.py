@@ -71,7 +71,7 @@ class Visit:
 
     def _hears(self, message: Any) -> None:
         if message.type == "error":
-            self.trouble.append(message.text)
+            self.trouble.append(f"{message.text} ({message.location.get('url', '')})")
 
     def _sees(self, url: str) -> None:
         parts = urlsplit(url)

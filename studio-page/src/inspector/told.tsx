@@ -4,9 +4,8 @@ import { leafed } from "../collection/order";
 import { complain } from "../state/notices";
 import { dimension, tileOf } from "../state/studio";
 import { Button, Select } from "../ui/controls";
-import { requests } from "../wire/requests";
 import type { Slug, Told } from "../wire/messages";
-import { reference } from "./pair/session";
+import { reference, tell } from "./pair/session";
 
 const AXES = ["x", "-x", "y", "-y", "z", "-z"] as const;
 const AS_ALL = "as all";
@@ -21,17 +20,7 @@ export function ToldOf() {
   const open = reference.value;
   if (!open || dimension.value === 2) return null;
   const others = leafed.value.filter((slug) => slug !== open.slug).length;
-  // Shown at once: whoever changes both in a moment is to lose neither.
-  const show = (told: Told) => {
-    if (reference.value?.slug === open.slug) reference.value = { ...reference.value, told };
-  };
-  const say = (slugs: Slug[], told: Told) => {
-    show(told);
-    requests.tell({ slugs, told }).catch((error: unknown) => {
-      complain(error);
-      show(open.told);
-    });
-  };
+  const say = (slugs: Slug[], told: Told) => void tell(slugs, told).catch(complain);
   const stands = tileOf(open.slug)?.axes;
   const found = stands?.by === "author" ? null : stands;
   const axes = (which: "up" | "front") => [

@@ -12,6 +12,7 @@ import type {
   Problem,
   Reference,
   Slug,
+  Told,
   Value,
   Values,
 } from "../../wire/messages";
@@ -49,6 +50,31 @@ export const values = computed((): Values => {
 });
 export const active = computed(() => new Set(outcome.value?.active ?? reference.value?.active ?? []));
 export const atLimit = computed(() => new Set(outcome.value?.at_limit ?? reference.value?.at_limit ?? []));
+
+let said = 0;
+let unanswered = 0;
+
+/** Say of files which axes point where and what they hold. It is shown at once, so that two words in a moment are both kept. */
+export async function tell(slugs: Slug[], told: Told): Promise<void> {
+  const open = reference.value;
+  said += 1;
+  unanswered += 1;
+  if (open) reference.value = { ...open, told };
+  try {
+    await requests.tell({ slugs, told });
+  } catch (error) {
+    if (open && reference.value?.slug === open.slug) reference.value = { ...reference.value, told: open.told };
+    throw error;
+  } finally {
+    unanswered -= 1;
+  }
+}
+
+/** Take what is known of the pair; what the author has said of its file since that was asked for stays. */
+function read(found: Reference, since: number | null): void {
+  const open = reference.value;
+  reference.value = open && since !== said ? { ...found, told: open.told } : found;
+}
 
 /** Show one pair until the returned function is called. */
 export function open(next: Slug): () => void {
@@ -90,7 +116,8 @@ function watch(next: Slug): () => void {
     untracked(() => {
       if (!connected.value) return;
       const tile = tileOf(next);
-      requests.reference(next).then((found) => slug.value === next && (reference.value = found), note(next));
+      const since = unanswered > 0 ? null : said;
+      requests.reference(next).then((found) => slug.value === next && read(found, since), note(next));
       if (tile && tile.reference !== shape) {
         shape = tile.reference;
         const asked: Promise<Shown> = dimension.value === 3 ? requests.mesh(next) : requests.drawing(next);
