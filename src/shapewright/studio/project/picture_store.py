@@ -17,6 +17,7 @@ class Pictures:
     def __init__(self, *homes: Path) -> None:
         self._homes = [home.resolve() for home in homes]
         self._known: dict[str, bytes | Path] = {}
+        self._old: set[str] = set()  # digests of those that were there when pictures were forgotten last
 
     def add(self, png: bytes) -> str:
         """The address of a picture."""
@@ -45,16 +46,18 @@ class Pictures:
         raise Missing("there is no such picture any more")
 
     def keep(self, addresses: set[str]) -> None:
-        """Forget the pictures in memory but these."""
+        """Forget the pictures in memory but these and new ones: a page may ask for what was shown a moment ago."""
         self._known = {
             digest: picture
             for digest, picture in self._known.items()
-            if isinstance(picture, Path) or _address(digest) in addresses
+            if isinstance(picture, Path) or _address(digest) in addresses or digest not in self._old
         }
+        self._old = {*self._known}
 
     def _put(self, total: hashlib.blake2b, picture: bytes | Path) -> str:
         digest = total.hexdigest()
         self._known[digest] = picture
+        self._old.discard(digest)
         return _address(digest)
 
 
