@@ -61,8 +61,7 @@ class Revisions:
 
         last: the text that was there when somebody looked last, for a list that is empty. Raises OSError.
         """
-        newest = next(iter(self.all()), None)
-        before = self.texts(newest.number)[1] if newest else last
+        before = next(self._texts_after(), last)
         if before is not None and before != now:
             self._add(before, now, "another program", "")
 
@@ -77,6 +76,12 @@ class Revisions:
             with suppress(OSError):
                 path.unlink()
             raise
+
+    def _texts_after(self) -> Iterator[str]:
+        """The texts after the writes, the newest first; of those that can be read."""
+        for path in reversed(self._paths()):
+            with suppress(KeyError):
+                yield self.texts(int(path.stem))[1]
 
     def _add(self, before: str, after: str, writer: Writer, of: str) -> Path:
         home, paths = self._home(), self._paths()
