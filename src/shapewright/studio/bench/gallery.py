@@ -106,11 +106,17 @@ class Gallery:
         if stance is not None and is_free(read):
             read = turned(read, stance) if isinstance(stance, Finding) else recalled(read, stance)
         read = read.standing(self.facts.up) if self.facts.up != "y" else read
-        if slug in self.listed.files:
-            name = self.listed.sources[slug].name
-            read = next((part for part in objects_in(read, Settings()) if part.name == name), read)
-        else:
-            read = without_extras(read, Settings())
+        if slug not in self.listed.files:
+            return self._shelved(slug, without_extras(read, Settings()))
+        # A file is read and taken apart once for all objects in it.
+        parts, file = {part.name: part for part in reversed(objects_in(read, Settings()))}, self.listed.files[slug]
+        for other in (one for one, whole in self.listed.files.items() if whole == file and one != slug):
+            part = parts.get(self.listed.sources[other].name)
+            if part and self._shelf.get(other) is None:
+                self._shelved(other, part)
+        return self._shelved(slug, parts.get(self.listed.sources[slug].name, read))
+
+    def _shelved(self, slug: str, read: Reference) -> Reference:
         return self._shelf.put(slug, read.sized(self.facts.metres) if self.facts.size == "given" else read)
 
     def given(self, slug: str) -> Reference:
