@@ -1,6 +1,6 @@
 from importlib import metadata
 
-from shapewright.runs import versions
+from shapewright import versions
 
 
 def test_a_package_that_is_not_installed_is_no_reason_to_lose_a_run(monkeypatch):

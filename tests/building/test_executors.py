@@ -180,7 +180,7 @@ def test_a_procedure_that_is_not_the_same_there_is_refused(part, tmp_path):
 
 def test_another_version_there_is_refused(part, monkeypatch):
     sent = executors.Sent.outward(part)
-    monkeypatch.setattr("shapewright.building.sent.version", lambda _: "9.9")
+    monkeypatch.setattr("shapewright.building.sent.version_of", lambda _: "9.9")
     with pytest.raises(sw.ProcedureError, match=r"has shapewright 9\.9, and not .*: install the same version"):
         sent.arrived()
 

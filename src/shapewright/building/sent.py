@@ -8,12 +8,12 @@ import platform
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import cloudpickle
 
 from shapewright.procedures import Procedure, ProcedureError
+from shapewright.versions import version_of
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Sent:
         sent, named = cls.of(procedure), (procedure.path, *procedure.helpers)
         files = tuple(file for file in named if file and file.is_file())
         working = sent.working or Path.cwd()
-        return replace(sent, working=working, files=files, digest=_digest(files), version=_version())
+        return replace(sent, working=working, files=files, digest=_digest(files), version=version_of("shapewright"))
 
     @property
     def payload(self) -> bytes:
@@ -67,10 +67,10 @@ class Sent:
 
         Modules are looked for where its own process does, and then where this one does.
         """
-        here = platform.node()
-        if self.version != _version():
+        here, installed = platform.node(), version_of("shapewright")
+        if self.version != installed:
             raise ProcedureError(
-                f"{here} has shapewright {_version()}, and not {self.version}: install the same version on all machines"
+                f"{here} has shapewright {installed}, and not {self.version}: install the same version on all machines"
             )
         for file in self.files:
             if not file.is_file():
@@ -89,10 +89,3 @@ def _digest(files: Iterable[Path]) -> str:
     for file in files:
         content.update(hashlib.sha256(file.read_bytes()).digest())
     return content.hexdigest()
-
-
-def _version() -> str:
-    try:
-        return version("shapewright")
-    except PackageNotFoundError:  # it runs from its sources
-        return "unknown"

@@ -21,9 +21,9 @@ from shapewright.references.standing import AUTO, axes_record
 from shapewright.runs.helpers import helpers_of, not_kept
 from shapewright.runs.iteration import Iteration, draw_pictures
 from shapewright.runs.result import Result
-from shapewright.runs.versions import versions
 from shapewright.storage import printable
 from shapewright.survey.duplicates import Duplicate
+from shapewright.versions import versions
 
 
 def judged(

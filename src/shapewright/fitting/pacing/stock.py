@@ -15,9 +15,9 @@ from shapewright.fitting.pacing.filing import LEAST_SECONDS, read, tidy, write
 from shapewright.parameters import Parameters, Value
 from shapewright.procedures import Procedure
 from shapewright.progress import Notice
-from shapewright.runs.versions import version_of
 from shapewright.shapes import Mesh, Shape, shape_digest
 from shapewright.shapes.conversion.libraries import kernel
+from shapewright.versions import version_of
 
 _PROBED = 16
 """Samples that are built anew after an edit, besides: at least."""

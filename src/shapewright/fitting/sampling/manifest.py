@@ -17,8 +17,8 @@ from shapewright.fitting.sampling.shards import Shard
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, source_digest
 from shapewright.runs.folder import RunError, check_free
-from shapewright.runs.versions import version_of
 from shapewright.storage import remove_leftovers, write_file
+from shapewright.versions import version_of
 
 MANIFEST, RECORD = "manifest.csv", "manifest.samples.json"
 COLUMNS = ("path", *MEASURES, "failure")

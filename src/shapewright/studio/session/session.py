@@ -9,7 +9,6 @@ from pathlib import Path
 
 from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import EXPLANATION
-from shapewright.runs.versions import version_of
 from shapewright.storage import cache_folder
 from shapewright.studio.bench import messages
 from shapewright.studio.bench.client import BenchError
@@ -32,6 +31,7 @@ from shapewright.studio.wire.detail import Told
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Slug
 from shapewright.studio.wire.work import Job, Run
+from shapewright.versions import version_of
 
 _PATIENCE = 2.0
 """Seconds for which a fit after a save waits until the replicas of the new version are shown."""
