@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -101,6 +103,23 @@ def test_pieces_that_hypotheses_share_become_one_rule(table, tmp_path):
     assert plate.candidates(other)[0]["plate_level"] == pytest.approx(plate.ranges["plate_level"][2])
     needed = narrowed(plate, table.space, [plate.candidates(each)[0] for each in misfits])
     assert needed["plate_level"][1] < plate.ranges["plate_level"][1]
+
+
+def test_what_a_proposal_adds_is_made_alone_of_the_same_parameters(table, tmp_path):
+    (rule,) = [rule for rule in bundled_rules("supports") if rule.name == "tapered_legs"]
+    piece = Piece("rule", np.array([-0.5, 0.02, -0.35]), np.array([0.5, 0.57, 0.35]), rule=rule)
+    piece = replace(piece, arguments={"thickness": 0.1, "foot": 0.5})
+    change = Hypothesis(removed=("legs",), pieces=(piece,), cost=900.0, before=3000.0)
+    legs = [each for each in made(table, [misfit(table, 0, change), misfit(table, 1, change)]) if each.rule.alone]
+    longer = [each for each in made(table, [misfit(table, i, height=0.8) for i in (0, 1)]) if each.kind == "range"]
+    for proposal in legs:
+        text = proposal.adding(proposal.change(proposal.ranges))
+        (tmp_path / "alone.py").write_text(text)
+        whole, alone = loads(tmp_path, proposal), sw.load_procedure(tmp_path / "alone.py")
+        (values,) = proposal.candidates(misfit(table, 0))
+        assert "top" in whole(**values).label_names and alone(**values).label_names == ("legs",)
+        assert np.allclose(alone(**values).bounds, [(-0.45, 0, -0.35), (0.45, 0.6, 0.35)])  # the whole: up to the top
+    assert legs and longer[0].adding(longer[0].change(longer[0].ranges)) is None
 
 
 def test_parts_that_go_or_stand_further_in(table, tmp_path):

@@ -6,7 +6,7 @@ import shapewright as sw
 from shapewright import Choice
 from shapewright.building import Workers
 from shapewright.feedback.trials.attempt import turned_to
-from shapewright.feedback.trials.random_shapes import RandomShapes, _condition, seen, shows
+from shapewright.feedback.trials.random_shapes import RandomShapes, _condition, shown, shows
 from shapewright.modelling.solids import box
 from shapewright.shapes.mesh import concatenate
 
@@ -80,5 +80,24 @@ def test_what_lies_inside_is_not_seen():
     outer, inner = box(1.0).label("outer").mesh(), box(0.5).label("inner").mesh()
     inside = concatenate([outer, inner])
     beside = (box(1.0).label("outer") | box(0.5, at=(0.6, 0, 0)).label("inner")).mesh()
-    assert shows(outer, beside) and 0.5 < seen(beside, ["inner"]) <= 1.0
-    assert seen(inside, ["inner"]) == 0.0 and not shows(outer, inside)
+    assert shows(outer, beside, inner) and 0.5 < shown(beside, inner) < 0.8
+    assert shown(inside, inner) == 0.0 and not shows(outer, inside, inner)
+
+
+def test_what_only_looks_out_of_another_part_is_not_seen():
+    """Parts that are joined have no surface inside: what is left of them would all be seen."""
+    walls, plinth = box((1, 1, 1)).label("walls"), box((1.2, 0.1, 1.2), at=(0, -0.45, 0)).label("plinth")
+    tray = box((1.01, 0.4, 0.6)).label("tray")
+    assert shown((walls | plinth).mesh(), plinth.mesh()) > 0.5
+    assert shown((walls | tray).mesh(), tray.mesh()) < 0.3 and not shows(
+        walls.mesh(), (walls | tray).mesh(), tray.mesh()
+    )
+
+
+def test_a_part_belongs_to_the_branches_in_which_enough_of_it_is_seen(crew):
+    knob = 'box((3.1, 0.05, 0.05)).label("knob")'
+    plain, knobs = changed(crew, f"shape | {knob} if knob else shape")
+    assert plain.branch(knobs, []) is None  # without the part alone only what is hidden whole is told
+    alone = POST.replace('= "post"):', '= "post", knob: bool = False):').replace("return shape", f"return {knob}")
+    with turned_to(alone, crew) as turned:
+        assert plain.branch(knobs.adding(turned), []) == 'p.kind == "post"'

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from shapewright.comparison.light_field import RAW_SCALE, THRESHOLD
@@ -78,6 +78,13 @@ class Proposal:
     def write(self, ranges: Ranges) -> str:
         """The changed source with these Ranges. Raises EditError."""
         return self.change(ranges).written(self.source)
+
+    def adding(self, change: FileChange) -> str | None:
+        """The source changed so that it makes only what the change adds; None where that is no part."""
+        if not (self.rule and self.rule.alone and change.rule):
+            return None
+        function = change.rule.function.replace(self.rule.function, self.rule.alone)
+        return replace(change, rule=replace(change.rule, function=function)).written(self.source)
 
     def uses(self, parameters: Parameters) -> bool:
         """Whether parameters of the changed procedure make something that it did not make before."""

@@ -18,6 +18,7 @@ from shapewright.feedback.writing.source import EditError
 from shapewright.judging.judge import Judge
 from shapewright.parameters import ParameterSpace
 from shapewright.procedures import ProcedureError
+from shapewright.shapes import Mesh
 
 # Where nothing else is said, chosen on seed 0 of benchmarks/suggestions.py.
 _NEARER = 0.25  # of the way to a replicated replica, that a reference has to come to be helped
@@ -127,20 +128,29 @@ def _final(trials: Trials, change: Change) -> Iterator[Change]:
             shapes = trials.plain.changed(crew, idea.flag)
         if shapes.unsound > trials.plain.unsound:
             return
+        if alone := idea.adding(change.edit):
+            with turned_to(alone, trials.crew) as crew:
+                shapes = shapes.adding(crew)
         branch = trials.plain.branch(shapes, list(made.values())) if idea.flag else None
         edit = change.edit.only_when(branch) if branch else change.edit
         with turned_to(edit.written(idea.source), trials.crew) as crew:
             outcome = outcome_of(crew, made, judge, None)
             lost = {row: made[row] for row in made if outcome.apart(row) > change.outcome.apart(row) + _LOST}
             outcome = outcome.joined(outcome_of(crew, lost, judge, LONG, sure=idea.flag).using(idea.uses))
+        for final in change_of(trials, idea, outcome):
+            if _shows(trials, replace(final, edit=edit)):
+                yield replace(final, proposal=idea, ranges=change.ranges, edit=edit)
     except (EditError, ProcedureError):
         return
-    for final in change_of(trials, idea, outcome):
-        if _shows(trials, final):
-            yield replace(final, proposal=idea, ranges=change.ranges, edit=edit)
 
 
 def _shows(trials: Trials, change: Change) -> bool:
     """Whether what the change adds is seen in most replicas that it helps."""
     before = {misfit.row: misfit.nearest.mesh for misfit in trials.misfits}
-    return 2 * sum(shows(before[row], change.outcome.replicas[row].mesh) for row in change.helped) > len(change.helped)
+    added: dict[int, Mesh] = {}
+    if alone := change.proposal.adding(change.edit):
+        with turned_to(alone, trials.crew) as crew:
+            builds = crew.build([change.outcome.parameters[row] for row in change.helped])
+        added = {row: b.shape for row, b in zip(change.helped, builds, strict=True) if isinstance(b.shape, Mesh)}
+    seen = [shows(before[row], change.outcome.replicas[row].mesh, added.get(row)) for row in change.helped]
+    return 2 * sum(seen) > len(seen)

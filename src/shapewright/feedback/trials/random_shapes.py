@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from shapewright.building import Workers
+from shapewright.comparison.surfaces import area
 from shapewright.feedback.parts.attachment import separate
 from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.feedback.trials.attempt import same
@@ -17,8 +18,8 @@ from shapewright.parameters import Binary, Choice, Parameters, ParameterSpace, V
 from shapewright.shapes import Mesh
 
 _DRAWN = 16  # shapes: some for each value of a choice
-# By eye, on suggestions for vessels and houses:
-_SEEN = 0.15  # of a part's surface, that is seen from outside, at least
+# By eye, on suggestions for vessels and buildings: walls and roofs show .6 and more, what is buried .2 and less.
+_SEEN = 0.3  # of the surface that a part has alone, that is seen where it stands, at least
 _POINTS = 1000  # of a shape's surface that tell how much is seen
 _FEWEST, _SELDOM = 3, 0.34  # shapes with a value, and how often a part stands in them where it does not belong
 
@@ -31,11 +32,13 @@ class RandomShapes:
         space: of the procedure.
         parameters: of each shape.
         shapes: None where none could be built.
+        added: what a change adds to each, alone; None where that is no part, or could not be built.
     """
 
     space: ParameterSpace
     parameters: tuple[Parameters, ...]
     shapes: tuple[Mesh | None, ...]
+    added: tuple[Mesh | None, ...] = (None,) * _DRAWN
 
     @classmethod
     def of(cls, crew: Workers, seed: int) -> RandomShapes:
@@ -53,6 +56,10 @@ class RandomShapes:
         on = {flag: not space.defaults[flag]} if flag else {}
         drawn = tuple(space.canonical({**values, **on}) for values in own)
         return RandomShapes(space, drawn, _built(crew, drawn))
+
+    def adding(self, crew: Workers) -> RandomShapes:
+        """The same with what is added. crew: of a procedure that makes this alone, of the same parameters."""
+        return replace(self, added=_built(crew, self.parameters))
 
     @cached_property
     def unsound(self) -> int:
@@ -85,7 +92,7 @@ class RandomShapes:
         old, new = self.shapes[row], changed.shapes[row]
         if new is None:
             return old is None
-        return old is None or (changed.pieces[row] <= self.pieces[row] and shows(old, new))
+        return old is None or (changed.pieces[row] <= self.pieces[row] and shows(old, new, changed.added[row]))
 
     def _rows(self, name: str, value: Value) -> list[int]:
         return [
@@ -95,19 +102,22 @@ class RandomShapes:
         ]
 
 
-def seen(mesh: Mesh, labels: Sequence[str]) -> float:
-    """The share of the surface of parts with these labels that is seen from outside; 1 where there is none."""
-    if mesh.face_labels is None or not labels:
-        return 1.0
-    surface = VisibleSurface.of(mesh.normalised(), _POINTS)
-    own = np.isin(mesh.face_labels[surface.faces], [mesh.label_names.index(name) for name in labels])
-    return float(surface.visible[own].mean()) if own.any() else 1.0
+def shown(whole: Mesh, part: Mesh) -> float:
+    """The share of a part's surface that is still seen where it stands in a whole, by its labels.
+
+    part: without the rest, since parts that are joined keep no surface inside.
+    """
+    if whole.face_labels is None:
+        return 0.0
+    labels = [whole.label_names.index(name) for name in part.label_names if name in whole.label_names]
+    there, alone = (VisibleSurface.of(mesh.normalised(), _POINTS) for mesh in (whole, part))
+    own = there.visible & np.isin(whole.face_labels[there.faces], labels)
+    return area(whole) * float(own.mean()) / (area(part) * float(alone.visible.mean()))
 
 
-def shows(old: Mesh, new: Mesh) -> bool:
-    """Whether what a change adds is not hidden in what was there before; without a new part, whether it changes."""
-    added = [label for label in new.label_names if label not in old.label_names]
-    return seen(new, added) >= _SEEN if added else not same(old, new)
+def shows(old: Mesh, new: Mesh, added: Mesh | None) -> bool:
+    """Whether what a change adds is not hidden in what was there before; where it adds no part, whether it changes."""
+    return shown(new, added) >= _SEEN if added else not same(old, new)
 
 
 def _built(crew: Workers, drawn: Sequence[Parameters]) -> tuple[Mesh | None, ...]:

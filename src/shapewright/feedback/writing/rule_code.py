@@ -31,6 +31,7 @@ class RuleDraft:
     quantities: tuple[Quantity, ...]  # what becomes a parameter
     imports: tuple[str, ...]  # the functions of the kit that it needs
     rules: tuple[Rule, ...] = ()  # of the library, that it needs
+    alone: str = ""  # a function like that above, of the new pieces without the rest; empty where there are none
 
     @property
     def lines(self) -> int:
@@ -97,18 +98,19 @@ def addition(
         factor = free(f"{stem}_inset")
         quantities.append(Quantity(factor, tuple(inset)))
         rest = f"{rest}.scale(({factor}, 1, {factor}){_about(frames)})"
-    body.append(f"return {' | '.join([rest, *names])}")
     verb = "replace" if removed else "add"
     name = free(f"{verb}_{_plain(removed[0])}" if removed else f"{verb}_{stem}")
     arguments = ", ".join(["shape", *(q.name for q in quantities)])
     head = f"def {name}({arguments}):"
     if len(head) > LINE + 4:
         head = f"def {name}(\n    {arguments}\n):"
-    text = "\n    ".join([head, f'"""{note}"""', *body])
+    head = "\n    ".join([head, f'"""{note}"""', *body])
+    whole, alone = (f"{head}\n    return {' | '.join(made)}" for made in ([rest, *names], names))
     call = f"{name}({', '.join(['{shape}', *(q.name for q in quantities)])})"
     flag = free(f"with_{stem}") if any(several[0].rule for several in pieces) else stem  # the rule has the plain name
+    imports = kit_functions([*body, rest])
     rules = tuple({piece.rule.name: piece.rule for piece, *_ in pieces if piece.rule}.values())
-    return RuleDraft(name, flag, text, call, tuple(quantities), kit_functions(body), rules)
+    return RuleDraft(name, flag, whole, call, tuple(quantities), imports, rules, alone)
 
 
 def drawing_in(
