@@ -7,7 +7,7 @@ import shapewright as sw
 from shapewright.building import Workers
 from shapewright.feedback.case import Replica
 from shapewright.feedback.ideas.proposal import Misfit, Proposal
-from shapewright.feedback.trials.change import Trials, change_of
+from shapewright.feedback.trials.change import Trials, _beyond, change_of
 from shapewright.feedback.trials.outcome import Outcome
 from shapewright.feedback.trials.random_shapes import RandomShapes
 from shapewright.feedback.trials.selection import selected
@@ -111,13 +111,38 @@ def test_the_way_to_a_replicated_shape():
     ],
 )
 def test_a_step_that_carries_nobody_all_the_way_is_worth_showing_where_many_come_nearer(post, aparts, helped, value):
-    start, later = {"height": 1.0, "depth": 0.1}, {"height": 2.0, "depth": 0.1}
-    before = [Replica(row, start, box(1.0).mesh(), 0.3, apart=2.0) for row in range(len(aparts))]
-    misfits = [Misfit(replica, replica, replica) for replica in before]
-    _, judge = tall(post, (3.0,))
-    with Workers(post, 1) as crew:
-        trials = Trials(post.space, crew, misfits, judge, RandomShapes.of(crew, 0))
-    outcome = Outcome.of(Replica(row, later, box(1.0).mesh(), 0.3, apart=apart) for row, apart in enumerate(aparts))
-    changes = list(change_of(trials, longer("height", 4.0, range(len(aparts))), outcome))
+    changes = changed(trials_of(post, len(aparts)), aparts)
     assert [change.helped for change in changes] == ([] if helped is None else [helped])
     assert [change.value for change in changes] == ([] if helped is None else [pytest.approx(value)])
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "more"),
+    [
+        ([1.0, 1.0, 2.0], [1.0, 1.0, 2.0], 0.0),  # the same
+        ([1.0, 1.3, 2.0], [1.1, 1.0, 2.0], 0.3),  # one comes nearer, the other less near
+        ([1.0, 2.0, 2.0], [2.0, 1.0, 1.5], 1.5),  # others
+        ([1.5, 1.8, 1.5], [2.0, 1.0, 2.0], 1.0),  # what the first does not help, by its count
+    ],
+)
+def test_a_second_suggestion_brings_what_the_first_does_not(post, first, second, more):
+    trials = trials_of(post, 3)
+    (one,), (other,) = changed(trials, first), changed(trials, second)
+    assert _beyond(trials, other, [one]) == pytest.approx(more)
+    assert _beyond(trials, other, [one, other]) == pytest.approx(0.0)
+
+
+def trials_of(post, count):
+    start = {"height": 1.0, "depth": 0.1}
+    before = [Replica(row, start, box(1.0).mesh(), 0.3, apart=2.0) for row in range(count)]
+    _, judge = tall(post, (3.0,))
+    with Workers(post, 1) as crew:
+        misfits = [Misfit(replica, replica, replica) for replica in before]
+        return Trials(post.space, crew, misfits, judge, RandomShapes.of(crew, 0))
+
+
+def changed(trials, aparts):
+    """A longer Range with which the references lie so far apart."""
+    later = {"height": 2.0, "depth": 0.1}
+    outcome = Outcome.of(Replica(row, later, box(1.0).mesh(), 0.3, apart=apart) for row, apart in enumerate(aparts))
+    return list(change_of(trials, longer("height", 4.0, range(len(aparts))), outcome))

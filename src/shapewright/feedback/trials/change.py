@@ -26,6 +26,7 @@ _SLIGHTLY = 0.05  # of the same: nearer by chance is less. This and the next by 
 _MANY, _SEVERAL = 0.25, 4  # share and number of the misfits that have to come slightly nearer, where that is to count
 _LEAST_VALUE = 0.6  # of a change to be shown: one reference nearly all the way, or some a part of it
 _READING = 12  # lines of code that reading any suggestion costs as much as
+_ANOTHER = 0.5  # of the ways of all misfits, that a change has to bring beyond those shown before. On vessels, by eye
 _LOST = 0.1  # further apart with the final Ranges: worth another search
 
 
@@ -99,7 +100,7 @@ def worth_showing(trials: Trials, changes: Sequence[Change], limit: int) -> list
     needed = [change for change in changes if not any(_simpler(other, change) for other in changes)]
     shown: list[Change] = []
     for change in _ordered(needed):
-        if len(shown) < limit and not any(_repeats(change, other) for other in shown):
+        if len(shown) < limit and (not shown or _beyond(trials, change, shown) >= _ANOTHER):
             shown += _final(trials, change)
     return _ordered(shown)
 
@@ -108,9 +109,14 @@ def _ordered(changes: Sequence[Change]) -> list[Change]:
     return sorted(changes, key=lambda change: (-change.worth, len(change.ranges)))
 
 
-def _repeats(one: Change, other: Change) -> bool:
-    same = other.proposal.kind == one.proposal.kind
-    return same and set(one.helped) <= set(other.helped)
+def _beyond(trials: Trials, change: Change, shown: Sequence[Change]) -> float:
+    """How much further a change brings misfits than what is shown before, summed over their ways.
+
+    What does no more than a plainer change is no second suggestion: shelves fill a vessel as well as a thicker floor.
+    """
+    helped = [misfit for misfit in trials.misfits if misfit.row in change.helped]
+    before = [max(way(m, other.outcome) if m.row in other.helped else 0.0 for other in shown) for m in helped]
+    return sum(max(way(m, change.outcome) - most, 0.0) for m, most in zip(helped, before, strict=True))
 
 
 def _simpler(one: Change, other: Change) -> bool:
