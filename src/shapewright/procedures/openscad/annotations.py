@@ -27,9 +27,10 @@ the next."""
 
 
 def hint(value: Literally, comment: str) -> tuple[Any, str]:
-    """The annotation of a Python signature, and what the options are called, for a value and the comment behind it.
+    """The annotation of a Python signature, and what there is to say of it, for a value and the comment behind it.
 
-    The annotation is None where nothing says which values there are: the value is held.
+    The annotation is None where nothing says which values there are: the value is held. Said is what the options are
+    called, and where the comment leaves the value out, which is taken in all the same: OpenSCAD builds it.
     Raises ValueError where the comment is in the form of an annotation, but is none for this value.
     """
     if isinstance(value, bool):
@@ -42,9 +43,11 @@ def hint(value: Literally, comment: str) -> tuple[Any, str]:
         if not _LIMITS.fullmatch(inside):
             return None, ""
         limits = tuple(_limits(inside, one) for one in value)
-        return (None if None in limits else tuple[limits]), ""  # type: ignore[valid-type]
+        if None in limits:
+            return None, ""
+        return tuple[limits], _left_out(inside, *value)  # type: ignore[valid-type]
     if not isinstance(value, str) and _LIMITS.fullmatch(inside):
-        return _limits(inside, value), ""
+        return _limits(inside, value), _left_out(inside, value)
     return _options(inside, value)
 
 
@@ -53,9 +56,24 @@ def number(text: str) -> int | float:
     return int(text) if re.fullmatch(r"[-+]?\d+", text.strip()) else float(text)
 
 
+def _ends(inside: str) -> tuple[int | float, int | float]:
+    first, *others = [number(part) for part in inside.split(":")]
+    return (first, others[-1]) if others else (0, first)
+
+
+def _left_out(inside: str, *values: int | float) -> str:
+    low, high = _ends(inside)
+    beyond = [value for value in values if not low <= value <= high]
+    return _beside(inside, *beyond) if beyond else ""
+
+
+def _beside(inside: str, *values: Plain) -> str:
+    return f"its annotation [{inside}] leaves out {', '.join(map(str, values))}"
+
+
 def _limits(inside: str, value: int | float) -> Any:
     numbers = [number(part) for part in inside.split(":")]
-    low, high = (0, numbers[0]) if len(numbers) == 1 else (numbers[0], numbers[-1])
+    low, high = _ends(inside)
     step = numbers[1] if len(numbers) == 3 else 1
     if low == high == value and len(numbers) > 1:
         return None  # a slider that cannot be moved
@@ -63,6 +81,7 @@ def _limits(inside: str, value: int | float) -> Any:
         raise ValueError(f"[{inside}] has no values; write the lower end first: [low:high] or [low:step:high]")
     if not step > 0:
         raise ValueError(f"[{inside}] has a step of {step:g}; write one above 0: [low:step:high]")
+    low, high = min(low, value), max(high, value)
     if all(isinstance(one, int) for one in (value, low, high, step)):
         return Annotated[int, Range(low, high, _steps(int(low), int(high), int(step), int(value)))]
     count = (high - low) / step + 1
@@ -73,7 +92,7 @@ def _limits(inside: str, value: int | float) -> Any:
 def _steps(low: int, high: int, step: int, value: int) -> Sequence[float] | None:
     """The values of whole numbers with a step, the default among them; None where any number is one."""
     values = sorted({*range(low, high + 1, step), value})
-    return values if step > 1 and low <= value <= high and len(values) <= _CHOSEN else None
+    return values if step > 1 and len(values) <= _CHOSEN else None
 
 
 def _options(inside: str, value: Plain) -> tuple[Any, str]:
@@ -101,5 +120,6 @@ def _options(inside: str, value: Plain) -> tuple[Any, str]:
     if len(found) < 2:
         raise ValueError(f"[{inside}] has one value; write at least two, such as [a, b], or a range: [low:high]")
     if value not in found:
-        raise ValueError(f"the value {value!r} is not one of [{inside}]; add it, or choose another one")
+        found.append(value)
+        labels.append(_beside(inside, value))
     return Literal[tuple(dict.fromkeys(found))], ", ".join(labels)
