@@ -23,7 +23,7 @@ from shapewright.parameters import Range
 from shapewright.rules.rule import rule
 
 
-@rule("body")
+@rule("anywhere")
 def turned_body(
     size: Vector,
     foot: Annotated[float, Range(0.1, 1.0)] = 0.5,
