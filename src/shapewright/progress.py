@@ -12,10 +12,11 @@ from shapewright.parameters import Parameters
 AnswerKind = Literal["carried over", "most similar samples", "predicted"]
 """Where parameters that are shown before the end of a fit come from: the run before, the first samples, the network."""
 
-NoticeKind = Literal["waiting", "pace", "within", "kept", "stochastic", "lying", "size", "not kept"]
+NoticeKind = Literal["waiting", "pace", "within", "kept", "stochastic", "lying", "size", "not kept", "going on"]
 """What a notice is about: no shape yet, the cost of a shape, how a limit of time is divided, samples of an earlier run
 that are used again, a procedure that builds other shapes from the same parameters, references in which another axis is
-up than in its shapes, or that are as large as these, and files that it reads of which runs keep no copy."""
+up than in its shapes, or that are as large as these, files that it reads of which runs keep no copy, and a fit that was
+stopped and goes on."""
 
 
 @dataclass(frozen=True)
@@ -117,9 +118,10 @@ class Stages:
         if self._listener:
             self._listener(Progress(self._stage, 1, 1, kind, answer, answer_kind=kind))
 
-    def tell(self, notice: Notice) -> None:
-        """Tell something once; never held back."""
-        self.notices.append(notice)
+    def tell(self, notice: Notice, recorded: bool = True) -> None:
+        """Tell something once; never held back. recorded: whether it is among the ``notices``."""
+        if recorded:
+            self.notices.append(notice)
         if self._listener:
             self._listener(Progress(self._stage, self._done, self._total, notice=notice))
 

@@ -12,7 +12,7 @@ import re
 import shutil
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from itertools import chain, count
 from pathlib import Path
@@ -49,6 +49,21 @@ def write_file(path: Path, content: str | bytes) -> None:
     remove_leftovers(path.parent, path.name)
     with whole_file(path) as partial:
         partial.write_bytes(content.encode(errors="replace") if isinstance(content, str) else content)
+
+
+def write_durably(path: Path, parts: Iterable[bytes]) -> None:
+    """Write a file whole or not at all, also where the machine stops at this moment."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with whole_file(path) as partial, partial.open("wb") as file:
+        file.writelines(parts)
+        file.flush()
+        os.fsync(file.fileno())
+    if os.name == "posix":
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
 
 
 @contextmanager

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from shapewright.references import Collection
     from shapewright.runs.iteration import Iteration
 
-_NOTHING = "nothing of this run was written; earlier runs are as they were"
+_NOTHING = "this run is not written; the same command goes on with it, and earlier runs are as they were"
 _NAMED = 4  # names of references in a line
 _SIDES = 4  # that look like the front of a shape that has none
 
@@ -73,6 +73,12 @@ def fit(
     front: Front = None,
     keep: Keep = None,
     explain: Annotated[bool, typer.Option("--explain", help="Say why, and what to write next.")] = False,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Begin anew, where the same command was stopped before its end.")
+    ] = False,
+    chunk: Annotated[
+        int, typer.Option(min=1, help="References that are searched for at the same time; fewer take less memory.")
+    ] = 256,
     json: Json = False,
 ) -> None:
     """Find the parameters of every reference, build replicas, and report what the procedure cannot make yet."""
@@ -90,6 +96,7 @@ def fit(
         if marks:
             settings = Settings.preset(preset, **{**judged_by_marks(folder, settings.judge), **chosen})
         from shapewright.fitting.fit import fit as iterate
+        from shapewright.fitting.keeping.unfinished import UNFINISHED, Unfinished
         from shapewright.fitting.pictures import suited
         from shapewright.fitting.standing import stand
         from shapewright.runs.iteration import Iteration
@@ -104,10 +111,14 @@ def fit(
         known = suggested_parameters(previous, author.space.names) if previous else None
         loaded = stand(author, loaded, settings, listen, earlier)
         print_axes(loaded)
-        iteration = iterate(author, loaded, settings, listen, cache_folder(), earlier, known, opening)
+        unfinished = Unfinished(folder.parent / UNFINISHED, fresh)
+        iteration = iterate(
+            author, loaded, settings, listen, cache_folder(), earlier, known, opening, None, unfinished, chunk
+        )
     _save(iteration, folder)
     if explain:
         _explain(iteration, author, loaded, folder)
+    unfinished.remove()
     if json:
         print_json(iteration_record(iteration, folder))
     else:

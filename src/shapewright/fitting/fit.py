@@ -4,23 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 
 from shapewright.building import Executor, Workers
+from shapewright.fitting.chunks.facts import deciding, looks
+from shapewright.fitting.chunks.forms import KeptSamples
+from shapewright.fitting.chunks.judges import CHUNK, Judges
+from shapewright.fitting.chunks.passes import Passes
 from shapewright.fitting.facing import quarter_turns
+from shapewright.fitting.keeping.unfinished import Unfinished
 from shapewright.fitting.learning import learn, learn_more
 from shapewright.fitting.pacing.opening import Opening
 from shapewright.fitting.pacing.pace import paced
 from shapewright.fitting.pacing.stock import Stock
 from shapewright.fitting.pictures import suited
-from shapewright.fitting.replicas import replicate, resume
 from shapewright.fitting.results import followed, judged, recorded, telling
 from shapewright.fitting.standing import stand
 from shapewright.fitting.start import Start, for_procedure
-from shapewright.judging.judge import Judge
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure
-from shapewright.progress import Listener, Stages
+from shapewright.progress import Listener, Notice, Stages
 from shapewright.references import Collection
 from shapewright.runs.iteration import Iteration
 from shapewright.settings import Settings
@@ -37,6 +41,8 @@ def fit(
     known: Mapping[str, Sequence[Parameters]] | None = None,
     opening: Opening | None = None,
     executor: Executor | None = None,
+    unfinished: Unfinished | None = None,
+    chunk: int = CHUNK,
 ) -> Iteration:
     """One iteration: find parameters for every reference, and say which the procedure cannot replicate yet.
 
@@ -56,6 +62,9 @@ def fit(
         opening: the procedure's first samples with these settings, where they are being built already; its workers
             build all else as well.
         executor: builds the shapes of samples and of the search on other machines, see ``sample``; all else stays here.
+        unfinished: keeps what is done, so that the same call goes on after it was stopped. Its owner removes it when
+            the run is written.
+        chunk: references that are searched for at the same time; fewer take less memory, and change no result.
 
     Raises:
         ProcedureError: the procedure cannot build shapes.
@@ -66,7 +75,7 @@ def fit(
     """
     if opening and executor:
         raise ValueError("the workers of an opening build here: leave out the opening or the executor")
-    settings = settings or Settings()
+    settings, unfinished = settings or Settings(), unfinished or Unfinished()
     references = references if references.taught else stand(procedure, references, settings, progress, previous)
     references = for_procedure(references, procedure)
     with nullcontext(opening.crew) if opening else Workers.of(procedure, settings, executor) as crew:
@@ -75,22 +84,37 @@ def fit(
         like = following(references, settings, settings.workers)
         stages, fitted = Stages(progress and telling(progress, like)), leading(references, like)
         start = Start.of(fitted, procedure.space, previous, known)
-        stock = Stock(crew, cache, first)
+        if unfinished.begin(deciding(procedure, fitted, settings, previous, known)):
+            stages.tell(Notice("going on", "this goes on with a fit that was stopped"), recorded=False)
+        stock = Stock(crew, cache, first, KeptSamples(unfinished))
         stages.notices += opening.notices if opening else []
-        settings = paced(stock, settings, stages, start)
-        lesson = learn(crew, settings, stages, start, stock)
+        settings = _paced(stock, settings, stages, start, unfinished)
+        lesson = learn(crew, settings, stages, start, stock, unfinished)
         stock.keep()
         turns = quarter_turns(fitted, lesson.predictor, crew, settings, stages)
         stages.begin("describe", len(fitted))
-        judge = Judge.of(fitted.turned(turns), settings, cache)
-        replicas = resume(start, crew, judge)
-        replicas = replicate(crew, judge, lesson, stages, replicas, start.new)
-        for number in range(settings.rounds):
-            lesson = learn_more(crew, settings, stages, lesson, replicas.parameters, number)
-            replicas = replicate(crew, judge, lesson, stages, replicas)
-    results, groups = judged(procedure, judge, replicas, stages)
+        judges = Judges(fitted.turned(turns), settings, cache, chunk)
+        passes = Passes(crew, judges, unfinished, stages)
+        found = passes.searched(lesson, passes.known(start), 0, not settings.rounds, start.new)
+        for number in range(1, settings.rounds + 1):
+            centres = [values for each in found for values in each.replicas().parameters]
+            lesson = learn_more(crew, settings, stages, lesson, centres, number - 1, unfinished)
+            found = passes.searched(lesson, found, number, number == settings.rounds)
+    results, groups = judged(procedure, judges, found, stages)
     turned = dict(zip(fitted.names, turns, strict=True)) | {
         each.name: turns[fitted.names.index(each.of)] for each in like
     }
     results, groups = followed(references, like, results, groups, turned)
-    return recorded(procedure, judge, lesson, references, results, groups, turned, stages, crew.opened)
+    return recorded(procedure, judges, lesson, references, results, groups, turned, stages, crew.opened)
+
+
+def _paced(stock: Stock, settings: Settings, stages: Stages, start: Start, unfinished: Unfinished) -> Settings:
+    """The settings as ``paced`` divides them; or has divided them, where an earlier try is gone on with."""
+    divided = unfinished.fact("divided")
+    chosen = paced(stock, replace(settings, within=None, **divided) if divided else settings, stages, start)
+    if unfinished.once("looks", looks(stock.probes)) != looks(stock.probes):
+        unfinished.forget()  # the procedure builds other shapes than it did, for instance by what it reads
+        stock.build_anew()
+    if settings.within is not None:
+        unfinished.once("divided", {"samples": chosen.samples, "refine_shapes": chosen.refine_shapes})
+    return chosen

@@ -11,6 +11,8 @@ import numpy as np
 
 from shapewright.building import Build, Workers, describe_failures
 from shapewright.fitting.adaptive import around
+from shapewright.fitting.keeping.trained import trained_form
+from shapewright.fitting.keeping.unfinished import Unfinished
 from shapewright.fitting.pacing.pace import paced
 from shapewright.fitting.pacing.stock import Stock
 from shapewright.fitting.sensitivity import without_effect
@@ -23,7 +25,7 @@ from shapewright.prediction.devices import pick
 from shapewright.prediction.inference import measure
 from shapewright.prediction.predictor import Predictor
 from shapewright.prediction.scanning import scanned
-from shapewright.prediction.training import Epoch, Schedule, train_network
+from shapewright.prediction.training import Epoch, Schedule, Trained, train_network
 from shapewright.prediction.vgg import VGG19Network, find_weights
 from shapewright.prediction.views.silhouettes import redrawn, view_dataset
 from shapewright.procedures import Procedure
@@ -80,14 +82,21 @@ def train(procedure: Procedure, settings: Settings | None = None, progress: List
 
 
 def learn(
-    crew: Workers, settings: Settings, stages: Stages, start: Start | None = None, stock: Stock | None = None
+    crew: Workers,
+    settings: Settings,
+    stages: Stages,
+    start: Start | None = None,
+    stock: Stock | None = None,
+    unfinished: Unfinished | None = None,
 ) -> Lesson:
     """Train on random samples of the whole space.
 
     start: of a fit. Its references say whether the procedure is to build meshes or drawings; by default it may build
     either. Its predictor is trained further. ``stages`` gets a first answer for its references: the known parameters
-    at once, or those of the most similar of the first samples. stock: samples that are built already.
+    at once, or those of the most similar of the first samples. stock: samples that are built already. unfinished: keeps
+    the trained network.
     """
+    unfinished = unfinished or Unfinished()
     stock = stock or Stock(crew)
     space, previous = crew.procedure.space, start.predictor if start else None
     if start and start.resumed:
@@ -130,11 +139,27 @@ def learn(
         "cameras": {"before": _places(cameras)},
         "device": pick(schedule.device).type,
     }
-    return _train(space, parts, facts, settings, schedule, stages, previous)
+    facts = unfinished.once("facts", facts)
+    keep = _Keep(unfinished, "network0")
+    return _train(space, parts, facts, settings, schedule, stages, previous, keep)
+
+
+@dataclass(frozen=True)
+class _Keep:
+    """Where a trained network is kept."""
+
+    unfinished: Unfinished
+    name: str
 
 
 def learn_more(
-    crew: Workers, settings: Settings, stages: Stages, lesson: Lesson, centres: Sequence[Parameters], number: int
+    crew: Workers,
+    settings: Settings,
+    stages: Stages,
+    lesson: Lesson,
+    centres: Sequence[Parameters],
+    number: int,
+    unfinished: Unfinished,
 ) -> Lesson:
     """Train further with samples around the centres; what predictions are measured on stays. number: round, from 0."""
     space, seed = crew.procedure.space, settings.seed + number + 1
@@ -154,7 +179,8 @@ def learn_more(
     training = join([lesson.training, added])
     parts = [training, lesson.validation, lesson.held_out]
     schedule = _schedule(settings, lesson.predictor)
-    return _train(space, parts, lesson.facts, settings, schedule, stages, lesson.predictor)
+    keep = _Keep(unfinished, f"network{number + 1}")
+    return _train(space, parts, lesson.facts, settings, schedule, stages, lesson.predictor, keep)
 
 
 def _train(
@@ -165,6 +191,7 @@ def _train(
     schedule: Schedule,
     stages: Stages,
     previous: Predictor | None,
+    keep: _Keep,
 ) -> Lesson:
     training, validation, held_out = parts
     if training.kind is Drawing or training.cameras == (ANYWHERE,):
@@ -180,7 +207,12 @@ def _train(
 
     initial = previous.network if previous else None
     again = redraw if training.cameras == (ANYWHERE,) else None
-    trained = train_network(space, training, validation, schedule, tell, settings.workers, initial, again)
+
+    def made() -> Trained:
+        return train_network(space, training, validation, schedule, tell, settings.workers, initial, again)
+
+    form = trained_form(space, schedule, training.size, training.extents is not None)
+    trained = keep.unfinished.piece(keep.name, form, made)
     training, validation, held_out = (part.seen_by(trained.cameras, settings.workers) for part in parts)
     network, cameras, size = trained.network, trained.cameras, settings.image_size
     metrics, samples = measure(network, space, held_out), sum(map(len, parts))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,16 +15,27 @@ from shapewright.building import Build, Workers
 from shapewright.fitting.learning import Lesson
 from shapewright.fitting.start import Start
 from shapewright.judging.judge import Judge
+from shapewright.judging.paper import Metric
 from shapewright.judging.verdict import Evidence
-from shapewright.parameters import Parameters
+from shapewright.parameters import Parameters, Prediction
 from shapewright.prediction.views.silhouettes import most_similar
-from shapewright.progress import Stages
+from shapewright.progress import AnswerKind
+from shapewright.search.budgets import Budget
 from shapewright.search.search import SearchStart, refine
+from shapewright.settings import Settings
 from shapewright.shapes import Floats, Ints, Views
 
 _NEAR = 0.5
 """Parameters that are known already are not searched for again up to this share of the threshold, or of the way from a
 perfect replica to the least fidelity of a replicated one."""
+
+
+class Told(Protocol):
+    """Who is told how far a search is: the stages of a fit."""
+
+    def begin(self, stage: str, total: int) -> None: ...
+    def step(self, done: int, total: int) -> None: ...
+    def answer(self, answer: Mapping[str, Parameters], kind: AnswerKind) -> None: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,48 +77,69 @@ class Replicas:
             np.where(better, fields, self.fields),
         )
 
-    def near(self, judge: Judge) -> NDArray[np.bool_]:
+    def near(self, settings: Settings, metric: Metric) -> NDArray[np.bool_]:
         """Which are so good that they need no search, (N,)."""
-        if judge.settings.judge == "paper":
-            return np.asarray(self.distances <= _NEAR * judge.metric.threshold)
-        return np.asarray(self.fidelities >= 1.0 - _NEAR * (1.0 - judge.settings.replicated))
+        if settings.judge == "paper":
+            return np.asarray(self.distances <= _NEAR * metric.threshold)
+        return np.asarray(self.fidelities >= 1.0 - _NEAR * (1.0 - settings.replicated))
 
 
-def resume(start: Start, crew: Workers, judge: Judge) -> Replicas:
-    """The replicas of an earlier iteration, built again, or better ones; defaults where there are none."""
-    replicas = Replicas.none(len(start.known))
+def resume(start: Start, crew: Workers, judge: Judge, rows: range) -> Replicas:
+    """The replicas of an earlier iteration, built again, or better ones; defaults where there are none.
+
+    rows: places of the judge's references among all.
+    """
+    replicas = Replicas.none(len(rows))
     defaults = crew.procedure.space.defaults
+    known, others = start.known[rows.start : rows.stop], start.others[rows.start : rows.stop]
     if start.resumed:
-        replicas = replicas.tried([known or defaults for known in start.known], crew, judge)
-    for number in range(max(map(len, start.others), default=0)):
+        replicas = replicas.tried([values or defaults for values in known], crew, judge)
+    for number in range(max(map(len, others), default=0)):
         best = [build.parameters if build else defaults for build in replicas.builds]
-        vectors = [more[number] if number < len(more) else own for more, own in zip(start.others, best, strict=True)]
+        vectors = [more[number] if number < len(more) else own for more, own in zip(others, best, strict=True)]
         replicas = replicas.tried(vectors, crew, judge)
     return replicas
 
 
-def replicate(
-    crew: Workers, judge: Judge, lesson: Lesson, stages: Stages, replicas: Replicas, new: AbstractSet[str] | None = None
-) -> Replicas:
-    """Try the predicted parameters; search from there where no replica was near before. new: see ``SearchStart``."""
+@dataclass(frozen=True, eq=False)
+class Search:
+    """What a search for some of many references goes by, wherever they are among all.
+
+    prediction: for these references.
+    rows: which of them are searched for.
+    first: place of the first of them among all that are searched for.
+    many: how many are searched for in all.
+    budget: of each.
+    new: see ``SearchStart``.
+    """
+
+    prediction: Prediction
+    rows: Ints
+    first: int
+    many: int
+    budget: Budget
+    new: AbstractSet[str] | None = None
+
+
+def replicate(crew: Workers, judge: Judge, lesson: Lesson, search: Search, told: Told, replicas: Replicas) -> Replicas:
+    """Try the predicted parameters; search from there where no replica was near before."""
     settings, known = judge.settings, [build.parameters if build else None for build in replicas.builds]
-    rows = np.flatnonzero(~replicas.near(judge))
-    stages.begin("predict", len(known))
-    prediction = lesson.predictor.infer([r.shape for r in judge.references], judge.references.extents)
-    stages.begin("replicate", 1)
-    replicas = replicas.tried(prediction.decode(), crew, judge)
-    vectors = replicas.parameters
-    stages.answer(dict(zip(judge.references.names, vectors, strict=True)), "predicted")
+    told.begin("replicate", 1)
+    replicas = replicas.tried(search.prediction.decode(), crew, judge)
+    vectors, rows = replicas.parameters, search.rows
+    told.answer(dict(zip(judge.references.names, vectors, strict=True)), "predicted")
     if settings.refine == "off" or not len(rows):
         return replicas
-    stages.begin("refine", 1)
-    start = SearchStart(prediction.take(rows), [known[i] for i in rows], new)
+    told.begin("refine", 1)
+    start = SearchStart(
+        search.prediction.take(rows), [known[i] for i in rows], search.new, first=search.first, many=search.many
+    )
     if judge.references.in_views:
         shown = [shape for i in rows if isinstance(shape := judge.references.references[i].shape, Views)]
         similar = most_similar(shown, lesson.training, settings.seed, settings.workers)
         start = replace(start, beside=similar)
     criterion = judge.criterion(rows, replicas.fields[rows])
-    refined = refine(start, criterion, crew, lesson.budget(settings, len(rows)), settings.seed, stages.step)
+    refined = refine(start, criterion, crew, search.budget, settings.seed, told.step)
     for i, values in zip(rows, refined, strict=True):
         vectors[i] = values
     return replicas.tried(vectors, crew, judge)

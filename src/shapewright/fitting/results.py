@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from typing import Any
 
 from shapewright.building import Build, Opened
 from shapewright.comparison.grouping import Group
+from shapewright.fitting.chunks.forms import Measured
+from shapewright.fitting.chunks.judges import Judges
+from shapewright.fitting.chunks.passes import Found
 from shapewright.fitting.learning import Lesson
-from shapewright.fitting.replicas import Replicas
-from shapewright.judging.judge import Judge
 from shapewright.parameters import to_record
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Notice, Progress, Stages
@@ -20,6 +22,7 @@ from shapewright.references import Collection
 from shapewright.references.standing import AUTO, axes_record
 from shapewright.runs.helpers import helpers_of, not_kept
 from shapewright.runs.iteration import Iteration, draw_pictures
+from shapewright.runs.lazy import Lazy, later
 from shapewright.runs.result import Result
 from shapewright.storage import printable
 from shapewright.survey.duplicates import Duplicate
@@ -27,39 +30,45 @@ from shapewright.versions import versions
 
 
 def judged(
-    procedure: Procedure, judge: Judge, replicas: Replicas, stages: Stages
+    procedure: Procedure, judges: Judges, found: Sequence[Found], stages: Stages
 ) -> tuple[tuple[Result, ...], tuple[Group, ...]]:
     """The result of each reference, and the groups of those that are not replicated."""
-    stages.begin("compare", len(judge.references))
-    builds = [build for build in replicas.builds if build]
-    measures = judge.measures(builds, replicas.distances, replicas.evidence)
-    grades, compatible = judge.grades(measures), judge.compatible(measures)
-    groups = judge.groups(grades, [build.shape for build in builds])
+    stages.begin("compare", len(judges.references))
+    measured = [each.measured() for each in found]
+    grades = [grade for some in measured for grade in some.grades]
+    ungrouped = [
+        result for some, each in zip(measured, found, strict=True) for result in _results(procedure, judges, each, some)
+    ]
+    groups = judges.groups(grades, Lazy(len(ungrouped), lambda place: ungrouped[place].replica))
     group_of = {name: i for i, group in enumerate(groups) for name in group.members}
-    results = tuple(
-        Result(
+    results = (replace(r, replica=r.held, group=group_of[r.name]) if r.name in group_of else r for r in ungrouped)
+    return tuple(results), groups
+
+
+def _results(procedure: Procedure, judges: Judges, found: Found, measured: Measured) -> Iterator[Result]:
+    """Those of a chunk, without their groups."""
+    replicas = found.replicas()
+    for place, (row, build, seen) in enumerate(zip(found.rows, replicas.builds, replicas.evidence, strict=True)):
+        assert build is not None
+        reference, its = judges.references.references[row], measured.measures[place]
+        yield Result(
             name=reference.name,
             path=reference.path,
             parameters=build.parameters,
             active=procedure.space.active(build.parameters),
             at_limit=procedure.space.at_limit(build.parameters) if build.shape else (),
-            replica=build.shape,
+            replica=later(partial(found.shape, place)) if judges.many and build.shape else build.shape,
             measured=its,
-            grade=grade,
-            compatible=bool(same),
-            group=group_of.get(reference.name),
+            grade=measured.grades[place],
+            compatible=measured.compatible[place],
+            group=None,
             reference=reference.shape,
             error=_error(build, its.distance),
             missing=seen.missing,
             surplus=seen.surplus,
-            places=places,
+            places=measured.places[place],
             notes=reference.notes,
         )
-        for reference, build, its, seen, grade, same, places in zip(
-            judge.references, builds, measures, replicas.evidence, grades, compatible, judge.places(builds), strict=True
-        )
-    )
-    return results, groups
 
 
 def followed(
@@ -78,6 +87,7 @@ def followed(
         if of := followers.get(reference.name):
             by_name[reference.name] = replace(
                 by_name[of],
+                replica=by_name[of].held,
                 name=reference.name,
                 path=reference.path,
                 reference=reference.turned(turns[of]).shape,
@@ -104,7 +114,7 @@ def telling(progress: Listener, like: Sequence[Duplicate]) -> Listener:
 
 def recorded(
     procedure: Procedure,
-    judge: Judge,
+    judges: Judges,
     lesson: Lesson,
     references: Collection,
     results: tuple[Result, ...],
@@ -122,13 +132,13 @@ def recorded(
     if kept.too_large:
         stages.tell(Notice("not kept", not_kept(kept.too_large)))
     predictor = lesson.predictor
-    pictures = draw_pictures(results, judge.settings.workers)
+    pictures = draw_pictures(results, judges.settings.workers)
     stages.end()
     return Iteration(
         results=results,
-        metric=judge.metric,
+        metric=judges.metric,
         groups=groups,
-        settings=judge.settings,
+        settings=judges.settings,
         seconds=stages.seconds,
         procedure={
             "name": procedure.name,

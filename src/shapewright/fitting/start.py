@@ -16,11 +16,14 @@ from shapewright.references import Collection
 from shapewright.rendering.raster import render
 from shapewright.runs.iteration import Iteration
 from shapewright.shapes import Drawing, extent_of
+from shapewright.shapes.shelf import fresh
 
 _FEWEST = 3
 """References that tell whether sizes could count: one has a size of the procedure's by chance."""
 _VARIED = 1.1
 """Longest side of the largest of them beside the least: those that somebody has normalised are of nearly one size."""
+_AT_ONCE = 512
+"""References whose pictures are in memory at the same time."""
 _WRITTEN = {
     ".scad": "write // shapewright: size=given into the file",
     ".toml": 'write size = "given" into the file',
@@ -102,6 +105,9 @@ class Start:
 
     def most_similar(self, samples: Dataset, threads: int | None) -> dict[str, Parameters]:
         """The parameters of the sample that looks most like each reference."""
-        shapes = [reference.shape for reference in self.references]
-        rows = nearest(render(shapes, samples.cameras, samples.size, threads=threads), samples.images)
+        rows: list[int] = []
+        for start in range(0, len(self.references), _AT_ONCE):
+            shapes = [fresh(reference.shape) for reference in self.references.references[start : start + _AT_ONCE]]
+            pictures = render(shapes, samples.cameras, samples.size, threads=threads)
+            rows += nearest(pictures, samples.images).tolist()
         return {name: samples.parameters[row] for name, row in zip(self.references.names, rows, strict=True)}

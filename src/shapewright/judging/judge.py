@@ -27,6 +27,7 @@ from shapewright.search.sizes import SizedObjective, likeness, parts_with_size
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Floats, Ints, Mesh, Points, ReferenceShape, Shape, Views
 from shapewright.shapes.conversion import as_reference, as_shape
+from shapewright.shapes.shelf import fresh
 from shapewright.threads import in_threads
 
 Rows = Sequence[int] | Ints  # indices of references in their collection
@@ -67,25 +68,39 @@ class Judge:
     references: Collection  # at least one
     targets: tuple[Target, ...]  # one for each reference
     settings: Settings  # threads, and what the targets were made with
+    lead: Target  # says what holds for the whole collection, such as the goal
+    sized: bool  # whether sizes count in the whole collection
 
     @classmethod
-    def of(cls, references: Collection, settings: Settings, cache: Path | None = None) -> Judge:
-        """Describe the references; cache: a folder that keeps the descriptors of meshes."""
+    def of(
+        cls,
+        references: Collection,
+        settings: Settings,
+        cache: Path | None = None,
+        rows: Rows | None = None,
+    ) -> Judge:
+        """Describe the references, or some ``rows`` of them; cache: a folder that keeps the descriptors of meshes.
+
+        A judge of some measures them as one of all does.
+        """
         shapes = [reference.shape for reference in references]
         most = max((len(shape) for shape in shapes if isinstance(shape, Views)), default=1)
-        targets = tuple(target_of(shape, settings, cache, most) for shape in shapes)
+        some = references if rows is None else references.part(rows)
+        targets = tuple(target_of(reference.shape, settings, cache, most) for reference in some)
         in_threads(lambda target: target.visible, targets, settings.workers)
-        return cls(references, targets, settings)
+        is_whole = rows is None or (len(rows) > 0 and rows[0] == 0)
+        lead = targets[0] if is_whole else target_of(shapes[0], settings, cache, most)
+        return cls(some, targets, settings, lead, any(references.extents))
 
     @property
     def metric(self) -> Metric:
         """By which references are compatible: the paper's measure."""
-        return self.targets[0].metric
+        return self.lead.metric
 
     @property
     def goal(self) -> float:
         """The cost up to which a replica is surely compatible, see ``Target``."""
-        return self.targets[0].goal
+        return self.lead.goal
 
     def standings(self, builds: Sequence[Build], rows: Rows | None = None) -> list[Standing]:
         """How near each build is to its reference, those of ``rows`` or all, by the judge of the settings."""
@@ -137,7 +152,7 @@ class Judge:
         self, builds: Sequence[Build], distances: Floats, evidence: Sequence[Evidence] | None = None
     ) -> list[Measures]:
         """All that can be measured of one build for each reference. distances, (N,), and evidence are known already."""
-        evidence = self.evidence(builds) if evidence is None and any(self.references.extents) else evidence
+        evidence = self.evidence(builds) if evidence is None and self.sized else evidence
         known = [None] * len(builds) if evidence is None else [each.value for each in evidence]
         each = zip(self.targets, builds, distances.tolist(), known, strict=True)
         return in_threads(lambda one: one[0].measures(one[1].shape, *one[2:]), each, self.settings.workers)
@@ -154,16 +169,16 @@ class Judge:
         pairs = zip(self._targets(rows), np.zeros(len(rows), int) if fields is None else fields, strict=True)
         forms = in_threads(lambda pair: pair[0].objective(int(pair[1])), pairs, self.settings.workers)
         objectives: list[Objective | None] = [
-            SizedObjective(form, extent, self.targets[0].parts) if form and extent else form
+            SizedObjective(form, extent, self.lead.parts) if form and extent else form
             for form, extent in zip(forms, self._extents(rows), strict=True)
         ]
         return measure_of(objectives, self.settings.workers)
 
     def criterion(self, rows: Rows, fields: Rows | None = None) -> Criterion:
         """What a search for some references makes small, and how far; fields: as for ``measure``."""
-        target = self.targets[0]
+        target = self.lead
         measure = self.measure(rows, fields)
-        parts = parts_with_size(target.parts) if any(self.references.extents) else target.parts
+        parts = parts_with_size(target.parts) if self.sized else target.parts
         reach = REACH if isinstance(target, PointsTarget) else 1.0
         return Criterion(measure, parts, target.goal, target.enough, target.surprise_cost, reach)
 
@@ -188,8 +203,12 @@ class Judge:
         left = None
         fine = self.settings.judge != "paper" and not self.settings.cut_absolute and not self.references.in_views
         if replicas is not None and rows and fine:
-            shapes = [(self.references.references[i].shape, replicas[i]) for i in rows]
-            left = np.stack(in_threads(lambda pair: remainder(*pair), shapes, self.settings.workers))
+            shapes = self.references.references
+
+            def lacks(i: int) -> Floats:
+                return remainder(fresh(shapes[i].shape), replicas[i])
+
+            left = np.stack(in_threads(lacks, rows, self.settings.workers))
         return type(self.targets[0]).groups(names, self._targets(rows), self.settings, left)
 
     def _likenesses(self, shapes: Sequence[Shape | None], rows: Rows | None) -> list[float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 import torch
@@ -21,7 +21,16 @@ Metrics: TypeAlias = dict[str, dict[str, Any]]
 _PIXELS = 2**22  # Pixels of one channel that pass the network at once, which bounds the memory it takes. By hand.
 
 
-def outputs(network: nn.Module, images: NDArray[np.uint8], extents: Floats | None = None) -> list[Tensor]:
+class Pictures(Protocol):
+    """Images (N, C, 2, S, S), some of which can be taken at a time: an array, for instance."""
+
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, rows: slice, /) -> NDArray[np.uint8]: ...
+
+
+def outputs(network: nn.Module, images: Pictures, extents: Floats | None = None) -> list[Tensor]:
     """The network's answers to images (N, C, 2, S, S) and sizes (N,), in evaluation mode, on the CPU."""
     device = next(network.parameters()).device
     rows = max(1, _PIXELS // math.prod(images.shape[1:2] + images.shape[3:]))
@@ -35,9 +44,7 @@ def outputs(network: nn.Module, images: NDArray[np.uint8], extents: Floats | Non
     return [torch.cat(column) for column in zip(*answers, strict=True)]
 
 
-def infer(
-    network: nn.Module, space: ParameterSpace, images: NDArray[np.uint8], extents: Floats | None = None
-) -> Prediction:
+def infer(network: nn.Module, space: ParameterSpace, images: Pictures, extents: Floats | None = None) -> Prediction:
     """What is likely for images (N, C, 2, S, S), at least one, and sizes (N,)."""
     answers = list(zip(space, outputs(network, images, extents), strict=True))
     columns = tuple((out.softmax(dim=1) if p.classes else out[:, 0].clamp(0.0, 1.0)).numpy() for p, out in answers)

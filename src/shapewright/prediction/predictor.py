@@ -15,7 +15,7 @@ from torch import nn
 from shapewright.parameters import Parameters, ParameterSpace, Prediction, from_record, to_record
 from shapewright.prediction.devices import torch_threads
 from shapewright.prediction.heads import SizeInput
-from shapewright.prediction.inference import Metrics, infer
+from shapewright.prediction.inference import Metrics, Pictures, infer
 from shapewright.prediction.network import CompactNetwork, make_network
 from shapewright.prediction.training import Epoch
 from shapewright.prediction.views.silhouettes import joined
@@ -23,6 +23,7 @@ from shapewright.rendering.cameras import ANYWHERE, PAGE, Camera
 from shapewright.rendering.framed import pictures_of
 from shapewright.rendering.raster import render
 from shapewright.shapes import Drawing, Mesh, ReferenceShape, Views, extent_of
+from shapewright.shapes.shelf import fresh
 from shapewright.storage import write_file
 
 _WORDS = {Drawing: "drawings", Views: "pictures of objects", Mesh: "meshes"}
@@ -96,10 +97,9 @@ class Predictor:
         if any(_kind(shape) is not kind for shape in shapes):
             raise ValueError(f"this predictor has learned from {_WORDS[kind]}; give it such")
         objects = [shape for shape in shapes if isinstance(shape, Views)]
+        images: Pictures = Drawn(shapes, self.cameras, self.size, self.threads)
         if objects:
             images = np.stack([pictures_of(view, self.size) for some in objects for view in some.views])
-        else:
-            images = render([s.normalised() for s in shapes], self.cameras, self.size, threads=self.threads)
         with torch_threads(self.threads):
             prediction = infer(self.network, self.space, images, self._sides(shapes, extents))
         return joined(prediction, [len(some) for some in objects]) if objects else prediction
@@ -112,6 +112,27 @@ class Predictor:
         given = extents or [None] * len(shapes)
         sides = [extent or extent_of(shape) for shape, extent in zip(shapes, given, strict=True)]
         return np.array(sides, dtype=np.float32)
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """Pictures of shapes, each drawn when it is asked for: those of many shapes together take much memory."""
+
+    shapes: Sequence[ReferenceShape]
+    cameras: tuple[Camera, ...]
+    size: int
+    threads: int | None
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return (len(self.shapes), len(self.cameras), 2, self.size, self.size)
+
+    def __len__(self) -> int:
+        return len(self.shapes)
+
+    def __getitem__(self, rows: slice) -> NDArray[np.uint8]:
+        some = [fresh(shape).normalised() for shape in self.shapes[rows]]
+        return render(some, self.cameras, self.size, threads=self.threads)
 
 
 def _kind(shape: ReferenceShape) -> type[Mesh] | type[Drawing] | type[Views]:

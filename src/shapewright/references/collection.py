@@ -23,9 +23,12 @@ from shapewright.references.standing import AUTO, stood, told
 from shapewright.references.views import Pictures, as_views, joined
 from shapewright.shapes import Drawing, Mesh, Points, Views
 from shapewright.shapes.conversion import as_reference
+from shapewright.shapes.shelf import fresh, shelved
 from shapewright.storage import printable
 
 _REASONS = 5
+_AT_ONCE = 1000
+"""Files that are read before their shapes are put aside."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +103,6 @@ class Collection:
                 file is a drawing, as with photographs, they are views.
         """
         origins = [source] if isinstance(source, str | os.PathLike) else list(source)
-        references: list[Reference] = []
         skipped: dict[Path, str] = {}
         steps = kept(keep)
         auto, front = told(up, front)
@@ -111,15 +113,20 @@ class Collection:
         found = [one for one in found if not one.switches.leave_out]
         if not found:
             raise CollectionError(f"{os.fspath(origins[0])} leaves out all its files; leave fewer out")
-        files_read = []
-        with Readers() as readers:
-            results = readers.read(found)
-        for file, result in zip(found, results, strict=True):
-            if isinstance(result, UnreadableError):
-                skipped[file.place] = printable(str(result))
-            else:
-                references.append(result)
-                files_read.append(file)
+        files_read: list[sources.Source] = []
+
+        def read() -> Iterator[Reference]:
+            with Readers() as readers:
+                for start in range(0, len(found), _AT_ONCE):
+                    some = found[start : start + _AT_ONCE]
+                    for file, result in zip(some, readers.read(some), strict=True):
+                        if isinstance(result, UnreadableError):
+                            skipped[file.place] = printable(str(result))
+                        else:
+                            files_read.append(file)
+                            yield result
+
+        references: Sequence[Reference] = shelved(read())
         if pictures == "views":
             references = joined(files_read, references)
         elif not references and any(file.path.suffix.lower() in PICTURES for file in found):
@@ -184,19 +191,24 @@ class Collection:
     def oriented(self, orientations: Mapping[str, Orientation]) -> Collection:
         """The collection with these orientations of its files, by the names of references."""
         each = (r.stood(orientations[r.name]) if r.name in orientations else r for r in self)
-        return replace(self, references=tuple(each))
+        return replace(self, references=shelved(each))
 
     def turned(self, quarters: Sequence[int]) -> Collection:
         """The collection with every reference turned about the up axis: see ``Reference.turned``."""
-        return replace(self, references=tuple(r.turned(q) if q else r for r, q in zip(self, quarters, strict=True)))
+        return replace(self, references=shelved(r.turned(q) if q else r for r, q in zip(self, quarters, strict=True)))
 
     def standing(self, up: str) -> Collection:
         """The collection for a procedure that builds with this axis up: see ``Reference.standing``."""
-        return replace(self, references=tuple(reference.standing(up) for reference in self))
+        return replace(self, references=shelved(reference.standing(up) for reference in self))
 
     def sized(self, metres: float | None = None) -> Collection:
         """The collection for a procedure whose lengths, in a unit of so many metres, mean what they say."""
         return replace(self, references=tuple(reference.sized(metres) for reference in self))
+
+    def part(self, rows: Iterable[int]) -> Collection:
+        """The collection of some of its references, by their places. Those on disk come into memory."""
+        some = [self.references[int(row)] for row in rows]
+        return replace(self, references=tuple(replace(r, shape=fresh(r.shape)) for r in some))
 
     @property
     def extents(self) -> tuple[float | None, ...]:

@@ -18,7 +18,7 @@ from shapewright.judging.paper import Metric
 from shapewright.judging.target import mean
 from shapewright.judging.verdict import Grade
 from shapewright.prediction.predictor import Predictor
-from shapewright.rendering.thumbnails import seen_from, thumbnail, thumbnails
+from shapewright.rendering.thumbnails import seen_from, thumbnail
 from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
 from shapewright.runs.helpers import read_helpers, text_in, write_source
 from shapewright.runs.marks import worth_marking
@@ -26,6 +26,7 @@ from shapewright.runs.result import MEASURES, Result, from_record, read_replica,
 from shapewright.settings import Settings
 from shapewright.shapes import Mesh
 from shapewright.shapes.files import encode
+from shapewright.shapes.shelf import fresh
 from shapewright.storage import cell, file_names
 from shapewright.threads import in_threads
 
@@ -240,15 +241,16 @@ class Iteration:
 
 def draw_pictures(results: Sequence[Result], threads: int | None = None) -> Pictures:
     """Thumbnails (PNG) of every reference and replica, by name."""
-    references = thumbnails([r.reference for r in results if r.reference is not None], threads=threads)
+    drawn = in_threads(_drawn, [result for result in results if result.reference is not None], threads)
+    return dict(zip([result.name for result in results], drawn, strict=True))
 
-    def replica(result: Result) -> bytes | None:
-        if isinstance(result.replica, Mesh) and result.places:
-            return seen_from(result.replica, [np.array(place) for place in result.places])
-        return None if result.replica is None else thumbnail(result.replica)
 
-    replicas = in_threads(replica, results, threads)
-    return dict(zip([result.name for result in results], zip(references, replicas, strict=True), strict=True))
+def _drawn(result: Result) -> tuple[bytes, bytes | None]:
+    assert result.reference is not None
+    reference, replica = thumbnail(fresh(result.reference)), result.replica
+    if isinstance(replica, Mesh) and result.places:
+        return reference, seen_from(replica, [np.array(place) for place in result.places])
+    return reference, None if replica is None else thumbnail(replica)
 
 
 def _read_pictures(folder: Path, slug: str) -> tuple[bytes, bytes | None]:

@@ -12,6 +12,7 @@ from shapewright.judging.target import Measures
 from shapewright.judging.verdict import Grade, Region
 from shapewright.parameters import Parameters
 from shapewright.references.readers.svg import read_svg
+from shapewright.runs.lazy import Read
 from shapewright.settings import JudgeName
 from shapewright.shapes import Mesh, Points, ReferenceShape, Shape
 from shapewright.shapes.files import read_glb
@@ -27,7 +28,8 @@ class Result:
         parameters: in the procedure's units, None when nothing could be built.
         active: names of the parameters that matter at these values.
         at_limit: scalars at an end of their Range.
-        replica: the shape that the procedure builds, in its own units; None when it failed.
+        replica: the shape that the procedure builds, in its own units; None when it failed. Of one of many references
+            it is read from disk whenever it is asked for.
         measured: how the replica differs from the reference; NaN without a replica.
         grade: by the judge of the settings; different without a replica.
         compatible: whether the two count as the same by the paper's measure.
@@ -61,6 +63,12 @@ class Result:
     follows: str | None = None
 
     @property
+    def held(self) -> Shape | None:
+        """The replica, or what reads it: to make another result with it."""
+        held: Shape | None = _REPLICA.held(self)
+        return held
+
+    @property
     def fidelity(self) -> float:
         """The probability that a person calls replica and reference the same, 0 to 1; NaN without a replica."""
         return self.measured.fidelity
@@ -91,6 +99,8 @@ class Result:
         return self.measured.by_name()
 
 
+_REPLICA = Read("replica")
+Result.replica = _REPLICA  # type: ignore[assignment]  # it gives what the field says
 MEASURES = tuple(field.name for field in fields(Measures))
 """The names of all measures."""
 _KEPT = 8  # regions in a record, of either kind: the largest

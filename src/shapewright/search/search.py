@@ -42,6 +42,8 @@ class SearchStart:
     new: AbstractSet[str] | None = None  # scalars that are new or other than when the known ones were searched for
     beside: Sequence[Sequence[Parameters]] | None = None  # for each reference more to start from
     within: tuple[Floats, Floats] | None = None  # the least and the greatest encoded scalars of each reference, (N, P)
+    first: int = 0  # place of the first of them where they are some of many, which draws each one's random points
+    many: int | None = None  # how many there are in all; None: these
 
 
 @dataclass(eq=False)
@@ -80,7 +82,8 @@ def refine(
     shapes: all of them are built once where the references together may build as many.
     """
     space, parts = start.prediction.space, criterion.parts
-    if start.within is None and is_small(space) and space.combinations <= budget.evaluations(0) * len(start.prediction):
+    may = budget.evaluations(0) * (len(start.prediction) if start.many is None else start.many)
+    if start.within is None and is_small(space) and space.combinations <= may:
         return best_of_all(start.prediction, criterion, crew, progress)
     searches = [_begun(start, criterion, budget, seed, row) for row in range(len(start.prediction))]
     fallback = [space.canonical(space.decode(search.candidates[0].vector)) for search in searches]
@@ -133,7 +136,7 @@ def _begun(start: SearchStart, criterion: Criterion, budget: Budget, seed: int, 
     bounds = np.zeros(len(space)), np.ones(len(space))
     if start.within:
         bounds = start.within[0][row], start.within[1][row]
-    return _Search(row, candidates, bounds, np.random.default_rng([seed, row]), criterion.parts[0])
+    return _Search(row, candidates, bounds, np.random.default_rng([seed, start.first + row]), criterion.parts[0])
 
 
 def _candidate(start: SearchStart, criterion: Criterion, budget: Budget, row: int, vector: Floats) -> Candidate:

@@ -6,13 +6,15 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fnmatch import fnmatchcase
+from itertools import chain
 
 import numpy as np
 
 from shapewright.fields import meant
 from shapewright.references import Collection, CollectionError, Reference
 from shapewright.settings import Preparing, Split
-from shapewright.shapes import Ints, Mesh
+from shapewright.shapes import Ints, Mesh, ReferenceShape
+from shapewright.shapes.shelf import fresh, shelved
 from shapewright.survey.duplicates import Duplicate, duplicates
 from shapewright.survey.extras import Extra, found
 from shapewright.survey.likeness import pictures
@@ -20,6 +22,8 @@ from shapewright.survey.objects import objects
 from shapewright.survey.pieces import Pieces
 from shapewright.threads import in_threads
 
+_AT_ONCE = 512
+"""References whose shapes are in memory at the same time."""
 _AS_LARGE = 1e-4
 """Share by which sizes may differ, where they count, of references that follow one another."""
 
@@ -32,14 +36,29 @@ def prepared(references: Collection, how: Preparing, threads: int | None = None)
     """
     _check(how.patterns, [*references.names, *references.left_out])
     kept = [reference for reference in references if not _is_named(reference, how.patterns)]
-    done = in_threads(lambda reference: list(_prepared(reference, how)), kept, threads)
-    results = [result for some in done for result in some if not _is_named(result, how.patterns)]
+    unwanted: list[str] = []
+
+    def wanted() -> Iterator[Reference]:
+        for start in range(0, len(kept), _AT_ONCE):
+            some = kept[start : start + _AT_ONCE]
+            for result in chain.from_iterable(in_threads(lambda each: _in_place(each, how), some, threads)):
+                if _is_named(result, how.patterns):
+                    unwanted.append(result.name)
+                else:
+                    yield result
+
+    results = shelved(wanted())
     if not results:
         raise CollectionError(f"leave_out={how.leave_out!r} leaves no reference; leave fewer out")
     whole = {reference.name for reference in kept} | {result.name for result in results}
-    gone = {name: "left out on request" for name in references.names if name not in whole}
-    gone |= {r.name: "left out on request" for some in done for r in some if _is_named(r, how.patterns)}
-    return replace(references, references=tuple(results), left_out={**references.left_out, **gone})
+    gone = dict.fromkeys([*(name for name in references.names if name not in whole), *unwanted], "left out on request")
+    return replace(references, references=results, left_out={**references.left_out, **gone})
+
+
+def _in_place(reference: Reference, how: Preparing) -> list[Reference]:
+    """What is fitted of a reference, which stays where it is if that is all of it."""
+    copy = replace(reference, shape=fresh(reference.shape))
+    return [reference if each is copy else each for each in _prepared(copy, how)]
 
 
 def without_extras(reference: Reference, how: Preparing) -> Reference:
@@ -57,7 +76,7 @@ def following(references: Collection, how: Preparing, threads: int | None = None
     """The references that are not fitted for themselves, since they are like one before them in the same pose."""
     if how.duplicates == "each" or len(references) < 2 or references.in_views:
         return ()
-    seen = pictures([reference.shape for reference in references], threads)
+    seen = np.concatenate([pictures(some, threads) for some in _some(references)])
     like = duplicates(references.references, seen)
     return tuple(
         each
@@ -66,6 +85,12 @@ def following(references: Collection, how: Preparing, threads: int | None = None
         and (each.is_equal or how.duplicates == "near")
         and _same_size(references[each.name].extent, references[each.of].extent)
     )
+
+
+def _some(references: Collection) -> Iterator[list[ReferenceShape]]:
+    """The shapes, some at a time."""
+    for start in range(0, len(references), _AT_ONCE):
+        yield [fresh(reference.shape) for reference in references.references[start : start + _AT_ONCE]]
 
 
 def leading(references: Collection, like: Sequence[Duplicate]) -> Collection:

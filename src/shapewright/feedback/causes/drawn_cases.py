@@ -49,7 +49,8 @@ def in_place(judge: Judge) -> Judge:
     """A judge of the same drawings by the share of the area of both that lies apart; up to SAME they are the same."""
     shapes = [reference.shape for reference in judge.references]
     targets = tuple(_InPlace(shape, judge.settings) for shape in shapes if isinstance(shape, Drawing))
-    return Judge(judge.references, targets, replace(judge.settings, judge="paper", threshold=SAME))
+    settings = replace(judge.settings, judge="paper", threshold=SAME)
+    return replace(judge, targets=targets, settings=settings, lead=targets[0])
 
 
 def drawn_causes(

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from shapewright.building import Build, Failure
-from shapewright.shapes import Drawing, Mesh, Shape
+from shapewright.shapes import Drawing, Mesh
+from shapewright.shapes.packed import pack, unpack
 from shapewright.storage import remove_leftovers, whole_file
 
 LEAST_SECONDS = 0.02
@@ -21,9 +22,8 @@ LEAST_SECONDS = 0.02
 MOST_BYTES = 2 * 10**9
 """Of all files together; those that were not used for the longest time go. Some forty procedures of 1,000 triangles."""
 _MOST_OF_ONE = 5 * 10**8
-_FORMAT = 1
+_FORMAT = 2
 _DAMAGED = (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile)
-_ARRAYS = ("faces", "face_labels", "face_rules", "face_colours")
 
 
 def write(path: Path, digest: str, builds: Sequence[Build]) -> None:
@@ -76,38 +76,16 @@ def tidy(folder: Path) -> None:
 def _packed(build: Build) -> tuple[dict[str, Any] | None, bytes]:
     """A row of the head, and the bytes of the shape; no row of a failure that may be another one next time."""
     row: dict[str, Any] = {"parameters": dict(build.parameters), "seconds": build.seconds, "bytes": 0}
-    shape = build.shape
-    if shape is None:
+    if build.shape is None:
         infeasible = build.failure is not None and build.failure.kind == "infeasible"
         return (row | {"infeasible": build.failure.message} if infeasible and build.failure else None), b""
-    if isinstance(shape, Drawing):
-        content = shape.geometry.wkb
-        return row | {"drawing": True, "bytes": len(content)}, content
-    arrays = {"vertices": shape.vertices} | {
-        name: array for name in _ARRAYS if (array := getattr(shape, name)) is not None
-    }
-    parts = [array.tobytes() for array in arrays.values()]
-    sizes = [[len(array), len(part)] for array, part in zip(arrays.values(), parts, strict=True)]
-    row |= {"arrays": dict(zip(arrays, sizes, strict=True))}
-    row |= {"labels": list(shape.label_names), "rules": list(shape.rule_names), "bytes": sum(map(len, parts))}
-    return row, b"".join(parts)
+    head, content = pack(build.shape)
+    return row | {"shape": head, "bytes": len(content)}, content
 
 
 def _unpacked(row: dict[str, Any], content: bytes) -> Build:
     if "infeasible" in row:
         return Build(row["parameters"], None, Failure("infeasible", row["infeasible"]), row["seconds"])
-    return Build(row["parameters"], _shape(row, content), None, row["seconds"])
-
-
-def _shape(row: dict[str, Any], content: bytes) -> Shape:
-    if "drawing" in row:
-        import shapely
-
-        return Drawing(shapely.from_wkb(content))  # type: ignore[arg-type]  # what was a drawing's
-    arrays: dict[str, Any] = {}
-    for name, (length, size) in row["arrays"].items():
-        kind = {"vertices": np.float64, "face_colours": np.uint8}.get(name, np.int64)
-        array = np.array(np.frombuffer(content[:size], kind))
-        arrays[name] = array.reshape(length, -1) if name in ("vertices", "faces", "face_colours") else array
-        content = content[size:]
-    return Mesh(**arrays, label_names=tuple(row["labels"]), rule_names=tuple(row["rules"]))
+    shape = unpack(row["shape"], content)
+    assert isinstance(shape, Mesh | Drawing)
+    return Build(row["parameters"], shape, None, row["seconds"])

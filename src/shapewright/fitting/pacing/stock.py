@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Callable, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 import numpy as np
 
@@ -23,10 +24,22 @@ _PROBED = 16
 """Samples that are built anew after an edit, besides: at least."""
 _PROBED_MOST = 48
 """And at most, where parameters have many classes."""
+_WAVE, _WAVE_SECONDS = 256, 20.0
+"""Samples that are built before they are put where they are kept: at first, and later as many as take so long."""
 _PROGRAM = ".toml"
 """Suffix of procedures that another program builds, whose text is not known here: each run builds these samples."""
 
 Key: TypeAlias = tuple[Value, ...]
+
+
+class Pieces(Protocol):
+    """Where samples of a run are kept until it is finished."""
+
+    def builds(self) -> Iterable[Build]:
+        """Those of an earlier try."""
+
+    def put(self, builds: Sequence[Build], seconds: float) -> None:
+        """Keep some that took so long together."""
 
 
 class Stock:
@@ -38,15 +51,24 @@ class Stock:
     built anew, among them one for each class of each parameter; all must be equal, or nothing is used again.
     """
 
-    def __init__(self, crew: Workers, folder: Path | None = None, first: Sequence[Build] = ()) -> None:
+    def __init__(
+        self,
+        crew: Workers,
+        folder: Path | None = None,
+        first: Sequence[Build] = (),
+        pieces: Pieces | None = None,
+    ) -> None:
         """folder: where samples are kept; without one, or without a file of the procedure, none are.
 
-        first: the first samples of this run, where they are built already.
+        first: the first samples of this run, where they are built already. pieces: where samples are put while others
+        are built, and those that an earlier try of this run has put there.
         """
         self.crew = crew
+        self.probes: list[Build] = []
         self._first = list(first)
         self._path: Path | None = None
-        self._built: dict[Key, Build] = {}
+        self._pieces = pieces
+        self._built: dict[Key, Build] = {_key(b.parameters): b for b in (pieces.builds() if pieces else ())}
         self._kept: dict[Key, Build] = {}
         self._digest = ""
         self._same = False
@@ -68,7 +90,12 @@ class Stock:
         there = [build.parameters for build in self._first] == list(vectors)
         builds = self._first if there else self.crew.build(vectors, progress, give_up=True)
         self._take(builds)
+        self.probes = builds
         return builds
+
+    def build_anew(self) -> None:
+        """Use none of those that an earlier try of this run has built."""
+        self._built = {_key(build.parameters): build for build in self.probes}
 
     def hold(self, vectors: Sequence[Parameters], seed: int) -> Notice | None:
         """Before the samples of a run: build some that are kept anew, where the text was edited.
@@ -92,10 +119,30 @@ class Stock:
         missing = [vector for vector in vectors if _key(vector) not in known]
         have = len(vectors) - len(missing)
         step = progress and (lambda done, _: progress(have + done, len(vectors)))
-        for build in self.crew.build(missing, step, give_up and not known):
+        for build in self._new(missing, step, give_up and not known):
             self._built[_key(build.parameters)] = build
         known |= self._built
         return [known[_key(vector)] for vector in vectors]
+
+    def _new(
+        self, vectors: Sequence[Parameters], progress: Callable[[int, int], None] | None, give_up: bool
+    ) -> Iterator[Build]:
+        """Builds of all vectors, some at a time, so that those which took long are put where they are kept."""
+        size, done = _WAVE if self._pieces else max(len(vectors), 1), 0
+        while done < len(vectors):
+            begun = time.perf_counter()
+
+            def step(more: int, _: int, before: int = done) -> None:
+                if progress:
+                    progress(before + more, len(vectors))
+
+            builds = self.crew.build(vectors[done : done + size], step, give_up and not done)
+            yield from builds
+            done += size
+            if self._pieces:
+                seconds = time.perf_counter() - begun
+                self._pieces.put(builds, seconds)
+                size = min(max(int(size * _WAVE_SECONDS / max(seconds, 1e-6)), _WAVE), 4 * size)
 
     def forget(self) -> None:
         """Neither use nor keep any: the procedure builds other shapes from the same parameters."""

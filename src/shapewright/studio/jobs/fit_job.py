@@ -34,6 +34,7 @@ def collection(origin: Origin, suit: Callable[[Collection], Collection] = lambda
 def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     """Fit as the request says and save the run."""
     from shapewright.fitting.fit import fit as iterate
+    from shapewright.fitting.keeping.unfinished import UNFINISHED, Unfinished
     from shapewright.fitting.pictures import suited_to
     from shapewright.procedures import load_procedure
     from shapewright.report import write_report
@@ -48,13 +49,16 @@ def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     if request["previous"]:
         previous = Iteration.load(request["previous"])
         known = suggested_parameters(Path(request["previous"]), procedure.space.names)
-    iteration = iterate(procedure, references, settings, reporter.progress, cache_folder(), previous, known)
+    unfinished = Unfinished(Path(request["runs"]) / UNFINISHED)
+    told = reporter.progress
+    iteration = iterate(procedure, references, settings, told, cache_folder(), previous, known, unfinished=unfinished)
     reporter.stage("save", 0, 1)
     folder = next_run(Path(request["runs"])).absolute()
     before = previous_run(folder, set(iteration.names))
     iteration.save(folder, lambda partial: write_report(partial, before))
     predictions = json.dumps(predicted(iteration), allow_nan=False)
     write_file(folder / PREDICTIONS, predictions)
+    unfinished.remove()
     return JobResult(run=folder.name)
 
 

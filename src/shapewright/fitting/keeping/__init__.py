@@ -1,0 +1,1 @@
+"""What is done of a fit that is not finished, kept in a folder."""
