@@ -130,7 +130,9 @@ def test_a_scheduler_that_is_killed_ends_with_a_clear_error_and_the_command_goes
 
     with distributed.Client(cluster.address, timeout=3) as client:
         client.wait_for_workers(2, timeout=60)
-        with pytest.raises(RunError, match=r"far: the executor .*its manifest are whole: repeat the command to go on"):
+        with pytest.raises(
+            RunError, match=r"far: the executor .*repeat the command to go on: the shapes in its manifest are whole"
+        ):
             write_samples(plank, 600, tmp_path / "far", workers=2, progress=kill, executor=client.get_executor())
     assert (tmp_path / "far" / "manifest.csv").read_text().count("\n") > 200
     told = []

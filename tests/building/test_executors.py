@@ -219,7 +219,10 @@ def test_a_folder_whose_cluster_was_lost_is_gone_on_with(tmp_path):
     (tmp_path / "plank.py").write_text(PLANK)
     plank = sw.load_procedure(tmp_path / "plank.py")
     gone = AtOnce(losing=range(12, 1000))
-    with pytest.raises(RunError, match=r"far: the executor lost a chunk .*its manifest are whole: repeat the command"):
+    with pytest.raises(
+        RunError,
+        match=r"far: the executor lost a chunk .*repeat the command to go on: the shapes in its manifest are whole",
+    ):
         write_samples(plank, 400, tmp_path / "far", workers=10, executor=gone)
     write_samples(plank, 400, tmp_path / "far", workers=2)
     write_samples(plank, 400, tmp_path / "near", workers=2)

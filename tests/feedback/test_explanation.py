@@ -1,6 +1,7 @@
 """Explaining an iteration of a small procedure, of which the references need more than it can make."""
 
 import json
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import pytest
@@ -78,7 +79,7 @@ def iteration_of(procedure, references, vectors, settings):
 
 
 @pytest.fixture(scope="module")
-def explanation(procedure):
+def fitted(procedure):
     four, post = {"height": 0.6, "breadth": 0.6, "legs": "four"}, {"height": 0.6, "breadth": 0.6, "legs": "post"}
     shelf = box((0.94, 0.05, 0.54), at=(0, 0.2, 0)).mesh()
     whole = procedure(**four)
@@ -105,7 +106,13 @@ def explanation(procedure):
     }
     references = sw.Collection.of(shapes)
     settings = sw.Settings(workers=1, threshold=0.12, judge="paper")
-    return explain(iteration_of(procedure, references, found, settings), procedure, references, suggest=False)
+    return iteration_of(procedure, references, found, settings), references
+
+
+@pytest.fixture(scope="module")
+def explanation(procedure, fitted):
+    iteration, references = fitted
+    return explain(iteration, procedure, references, suggest=False)
 
 
 def chief(explanation, name):
@@ -221,3 +228,14 @@ def test_a_collection_that_lacks_a_reference_is_refused(procedure):
     iteration = iteration_of(procedure, references, vectors, sw.Settings(workers=1))
     with pytest.raises(KeyError, match="no reference 'b'"):
         explain(iteration, procedure, sw.Collection.of({"a": procedure()}))
+
+
+def test_an_explanation_through_an_executor_is_that_of_this_machine(procedure, fitted, explanation):
+    iteration, references = fitted
+    with ThreadPoolExecutor(2) as pool:
+        far = explain(iteration, procedure, references, suggest=False, executor=pool)
+    assert said(far) == said(explanation)
+
+
+def said(explanation):
+    return {key: value for key, value in record_of(explanation).items() if key != "seconds"}

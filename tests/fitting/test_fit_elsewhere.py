@@ -1,4 +1,4 @@
-"""A fit and an evaluation whose shapes are built through an executor: the same results as here."""
+"""A fit, an evaluation and an explanation through an executor: the same results as here."""
 
 from concurrent.futures import ThreadPoolExecutor
 
@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import shapewright as sw
+from shapewright.building import ExecutorError
 from shapewright.fitting.pacing.opening import Opening
 from shapewright.modelling.solids import box
 
@@ -73,8 +74,18 @@ def test_an_evaluation_measures_the_same_to_the_bit(stool):
     assert far[0].measured == here[0].measured and far[0].grades == here[0].grades
 
 
-def test_an_opening_builds_here_alone(stool):
-    with ThreadPoolExecutor(1) as pool, Opening(stool, SETTINGS) as opening:
-        with pytest.raises(ValueError, match="leave out the opening or the executor"):
+def test_an_opening_has_an_executor_of_its_own(stool):
+    with ThreadPoolExecutor(1) as pool, Opening(stool, SETTINGS, executor=(counting := Counting(pool))) as opening:
+        with pytest.raises(ValueError, match="give it to the opening"):
             sw.fit(stool, sw.Collection.of({"a": stool()}), SETTINGS, opening=opening, executor=pool)
         opening.builds()
+    assert counting.asked
+
+
+def test_an_executor_that_is_lost_ends_a_fit_with_its_reason(stool):
+    class Lost:
+        def submit(self, function, *args):
+            raise ConnectionError("the scheduler is gone")
+
+    with pytest.raises(ExecutorError, match=r"takes no more work: ConnectionError: the scheduler is gone; .*repeat"):
+        sw.fit(stool, sw.Collection.of({"a": stool()}), SETTINGS, executor=Lost())

@@ -4,10 +4,12 @@ from shapewright.building.executors import Executor, ExecutorError
 from shapewright.building.opened import Opened, is_own
 from shapewright.building.outcomes import Build, Failure, commonest_place, describe_failures
 from shapewright.building.pool import Workers
+from shapewright.building.sites import Crew
 from shapewright.processes import Limits
 
 __all__ = [
     "Build",
+    "Crew",
     "Executor",
     "ExecutorError",
     "Failure",

@@ -4,25 +4,13 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass
 
-from shapewright.building.executors import Executor, ExecutorError
+from shapewright.building.executors import Cluster, ExecutorError
 
 _PATIENCE = 30.0
 """Seconds in which a scheduler has to answer."""
-
-
-@dataclass(frozen=True)
-class Cluster:
-    """Where to build.
-
-    executor: of the cluster.
-    count: how many shapes it builds at the same time, as far as is known now.
-    """
-
-    executor: Executor
-    count: int
 
 
 @dataclass(frozen=True)
@@ -47,6 +35,11 @@ class ClusterName:
         elif kind == "dask" and rest and rest != "local":
             return cls(rest)
         raise ValueError(f"{text!r} is no cluster: write dask:ADDRESS of a scheduler, or dask:local:N for N processes")
+
+
+def where(name: ClusterName | None) -> AbstractContextManager[Cluster | None]:
+    """The cluster of that name, ``opened``; None for this machine."""
+    return opened(name) if name else nullcontext()
 
 
 @contextmanager

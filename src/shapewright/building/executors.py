@@ -1,23 +1,26 @@
-"""The seam to other machines: whatever has ``submit(function, *args)`` builds chunks of shapes where it likes.
+"""The seam to other machines: whatever has ``submit(function, *args)`` does chunks of work where it likes.
 
-What crosses is a procedure as ``Sent``, rows of parameters, and what is made of the shapes, in chunks. On each machine
-the safe workers of this room build. Where a chunk is built, and with which others, changes nothing in its result.
+What crosses is a procedure as ``Sent``, rows of parameters or references, a function, and what it makes of them, in
+chunks. On each machine the safe workers of this room build, see ``sites``. Where a chunk is done, and with which
+others, changes nothing in its result.
 """
 
 from __future__ import annotations
 
-import os
-import threading
 from collections import deque
-from collections.abc import Callable, Generator, Sequence
-from contextlib import closing, suppress
+from collections.abc import Callable, Generator, Iterable, Sequence
+from contextlib import AbstractContextManager, closing, nullcontext, suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, Protocol, TypeVar, cast
+from itertools import islice
+from typing import Any, Protocol, TypeVar
 
-from shapewright.building.builders import Builders, Took
+import cloudpickle
+
+from shapewright.building.builders import Took
 from shapewright.building.outcomes import Build
 from shapewright.building.sent import Sent
+from shapewright.building.sites import Done, Order, Site, finished, unpacked, worked
 from shapewright.parameters import Parameters
 from shapewright.procedures import ProcedureError
 from shapewright.processes import Limits
@@ -25,7 +28,11 @@ from shapewright.processes import Limits
 _AHEAD = 256
 """Chunks that are submitted before the first of them is taken, at most: so many machines work, and so much lies in
 memory where they are faster than who takes."""
+_FEW = 8
+"""Items that are not worth the way through a queue of jobs: they are done here, as the first shapes of a run are."""
+_ADVICE = "see that the cluster runs, and that its machines have memory enough, then repeat the command"
 Finished = TypeVar("Finished")
+Result = TypeVar("Result")
 
 
 class Pending(Protocol):
@@ -36,7 +43,10 @@ class Pending(Protocol):
 
 
 class Executor(Protocol):
-    """``concurrent.futures``' executors, ``client.get_executor()`` of dask, loky's, submitit's."""
+    """``concurrent.futures``' executors, ``client.get_executor()`` of dask, loky's, submitit's.
+
+    One with a context manager ``batch``, as submitit's, hands what is submitted in its block to a queue at once.
+    """
 
     def submit(self, function: Callable[..., Any], /, *args: Any) -> Pending: ...
 
@@ -46,25 +56,31 @@ class ExecutorError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Order:
-    """What is to be built.
+class Cluster:
+    """An executor of which it is known how many shapes it builds at the same time.
 
-    sent: the procedure.
-    limits: of each shape.
-    shown: see ``Builders``.
+    executor: of the cluster.
+    count: shapes at the same time, as far as is known now.
     """
 
-    sent: Sent
-    limits: Limits
-    shown: bool
+    executor: Executor
+    count: int
+
+    def submit(self, function: Callable[..., Any], /, *args: Any) -> Pending:
+        return self.executor.submit(function, *args)
 
 
 class Elsewhere:
-    """Builders behind an executor. It has the verbs of ``Builders``, and ``stream``."""
+    """Builders behind an executor. It has the verbs of ``Builders``, and those for other work."""
 
     def __init__(self, executor: Executor, sent: Sent, limits: Limits, shown: bool = False) -> None:
-        self._executor = executor
+        self._executor = executor.executor if isinstance(executor, Cluster) else executor
         self._order = Order(sent, limits, shown)
+
+    @property
+    def is_queue(self) -> bool:
+        """Whether each chunk waits for its turn as a job of its own, so that it has to be worth that."""
+        return hasattr(self._executor, "batch")
 
     def close(self) -> None:
         """The executor is its owner's: nothing ends here."""
@@ -81,10 +97,11 @@ class Elsewhere:
         tick: Callable[[], object] = lambda: None,
     ) -> None:
         """Build the rows of all slices."""
-        with closing(self.stream([[parameters[i] for i in piece] for piece in slices], _as_it_is)) as builds:
-            for piece in slices:
-                for i in piece:
-                    took(i, next(builds))
+        chunks = [[parameters[i] for i in piece] for piece in slices]
+        with closing(self.answers(partial(finished, finish=_as_it_is), chunks)) as answers:
+            for piece, done in zip(slices, answers, strict=True):
+                for i, build in zip(piece, done.result, strict=True):
+                    took(i, build)
                 tick()
 
     def elsewhere(self, builds: Sequence[Build]) -> list[Build]:
@@ -94,30 +111,58 @@ class Elsewhere:
     def stream(
         self, chunks: Sequence[Sequence[Parameters]], finish: Callable[[Build], Finished], fresh: bool = False
     ) -> Generator[Finished, None, None]:
-        """What ``finish`` makes of each build there, in order.
+        """What ``finish`` makes of each build there, in order. Raises as ``answers`` does."""
+        with closing(self.answers(partial(finished, finish=finish), chunks, fresh)) as answers:
+            for done in answers:
+                yield from done.result
+
+    def answers(
+        self, task: Callable[[Site, Any], Result], chunks: Iterable[Sequence[Any]], fresh: bool = False
+    ) -> Generator[Done[Result], None, None]:
+        """What the task makes of each chunk there, in order.
 
         A chunk that was lost with its machine is submitted once more. Raises ExecutorError when it is lost again,
         ProcedureError when the procedure is not the same there, or does not load.
         """
+        chunks = iter(chunks)
+        if self.is_queue:
+            first = list(islice(chunks, _FEW + 1))
+            if sum(map(len, first)) <= _FEW:
+                for chunk in first:
+                    yield _told_apart(worked(self._order, task, chunk, fresh))
+                return
+            chunks = iter([*first, *chunks])
         waiting: deque[tuple[Callable[[], Pending], Pending]] = deque()
         try:
-            for chunk in chunks:
-                submit = partial(self._submitted, list(chunk), finish, fresh)
-                waiting.append((submit, submit()))
-                if len(waiting) == _AHEAD:
-                    yield from _answer(*waiting.popleft())
-            while waiting:
-                yield from _answer(*waiting.popleft())
+            while True:
+                if len(waiting) <= _AHEAD // 2:
+                    some = islice(chunks, _AHEAD - len(waiting))
+                    waiting += self._submitted([partial(self._submit, task, chunk, fresh) for chunk in some])
+                if not waiting:
+                    return
+                yield _answer(*waiting.popleft())
         finally:
             for _, pending in waiting:
                 with suppress(Exception):  # of an engine that is gone
                     pending.cancel()
 
-    def _submitted(self, chunk: list[Parameters], finish: Callable[[Build], Any], fresh: bool) -> Pending:
+    def _submitted(self, submits: Sequence[Callable[[], Pending]]) -> list[tuple[Callable[[], Pending], Pending]]:
+        """All of them, in one batch where the executor knows batches."""
+        if not submits:
+            return []
+        batch: AbstractContextManager[Any] = getattr(self._executor, "batch", nullcontext)()
+        with batch:
+            return [(submit, submit()) for submit in submits]
+
+    def _submit(self, task: Callable[[Site, Any], Any], chunk: Sequence[Any], fresh: bool) -> Pending:
         try:
-            return self._executor.submit(built, self._order, chunk, finish, fresh)
+            work = cloudpickle.dumps((task, chunk))  # conditions of parameters are functions of the author's file
         except Exception as error:
-            raise ExecutorError(f"the executor takes no more work: {_told(error)}") from error
+            raise ExecutorError(f"this work cannot be sent to other machines: {_told(error)}") from error
+        try:
+            return self._executor.submit(unpacked, self._order, work, fresh)
+        except Exception as error:
+            raise ExecutorError(f"the executor takes no more work: {_told(error)}; {_ADVICE}") from error
 
 
 def _answer(submit: Callable[[], Pending], pending: Pending) -> Any:
@@ -126,8 +171,13 @@ def _answer(submit: Callable[[], Pending], pending: Pending) -> Any:
     if isinstance(answer, _Lost):
         again = _awaited(submit())
         if isinstance(again, _Lost):
-            raise ExecutorError(f"the executor lost a chunk of shapes twice: {answer.reason}, then {again.reason}")
+            why = f"{answer.reason}, then {again.reason}"
+            raise ExecutorError(f"the executor lost a chunk of shapes twice: {why}; {_ADVICE}")
         answer = again
+    return _told_apart(answer)
+
+
+def _told_apart(answer: Done[Result] | ProcedureError) -> Done[Result]:
     if isinstance(answer, ProcedureError):
         raise answer
     return answer
@@ -151,72 +201,6 @@ def _awaited(pending: Pending) -> Any:
 
 def _told(error: BaseException) -> str:
     return f"{type(error).__name__}: {error}".rstrip(": ")
-
-
-def built(
-    order: Order, chunk: list[Parameters], finish: Callable[[Build], Finished], fresh: bool = False
-) -> list[Finished] | ProcedureError:
-    """On the machine that builds: what ``finish`` makes of each vector's build.
-
-    fresh: in a process that has built nothing before. An error of the author's is an answer, so that the executor does
-    not take it for one of the machine.
-    """
-    try:
-        order = replace(order, sent=order.sent.arrived())
-        builders = Builders(order.sent, 1, order.limits, order.shown) if fresh else _idle.taken(order)
-        builds: list[Build | None] = [None] * len(chunk)
-        try:
-            builders.run(chunk, [range(len(chunk))], builds.__setitem__)
-        except BaseException:
-            builders.close()
-            raise
-    except ProcedureError as error:
-        return error
-    if fresh:
-        builders.close()
-    else:
-        _idle.put(order, builders)
-    return [finish(build) for build in cast(list[Build], builds)]
-
-
-class _Idle:
-    """Builders that this process keeps for its next chunks: to start one takes as long as to build a hundred shapes.
-
-    They are kept by the process that started them: one that is forked from it starts its own.
-    """
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._kept: dict[int, list[tuple[Order, Builders]]] = {}
-
-    def taken(self, order: Order) -> Builders:
-        """Builders for an order, which nobody else has. Raises ProcedureError when the procedure does not load."""
-        with self._lock:
-            kept = self._kept.setdefault(os.getpid(), [])
-            same = next((i for i, (known, _) in enumerate(kept) if known == order), None)
-            if same is not None:
-                return kept.pop(same)[1]
-            alike = [
-                i for i, (known, _) in enumerate(kept) if (known.limits, known.shown) == (order.limits, order.shown)
-            ]
-            other = kept.pop(alike[-1])[1] if alike else None
-        if other is None:
-            return Builders(order.sent, 1, order.limits, order.shown)
-        other.load(order.sent)
-        return other
-
-    def put(self, order: Order, builders: Builders) -> None:
-        """Keep them, in place of any that have other limits."""
-        with self._lock:
-            kept = self._kept.setdefault(os.getpid(), [])
-            stale = [each for each in kept if (each[0].limits, each[0].shown) != (order.limits, order.shown)]
-            for each in stale:
-                kept.remove(each)
-                each[1].close()
-            kept.append((order, builders))
-
-
-_idle = _Idle()
 
 
 def _as_it_is(build: Build) -> Build:

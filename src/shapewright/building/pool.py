@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
+from contextlib import closing
 from dataclasses import replace
+from functools import partial
 from typing import TypeVar, cast
 
 from shapewright.building.builders import Builders
-from shapewright.building.executors import Elsewhere, Executor
+from shapewright.building.executors import Cluster, Elsewhere, Executor
 from shapewright.building.opened import Opened
 from shapewright.building.outcomes import Build, commonest_place, describe_failures
 from shapewright.building.sent import Sent
+from shapewright.building.sites import Crew, mapped
 from shapewright.parameters import Parameters
 from shapewright.procedures import Procedure, ProcedureError
 from shapewright.processes import Limits
@@ -19,9 +22,14 @@ from shapewright.threads import cores, in_threads
 
 SLICE = 64
 """Shapes in one request to a worker, at most."""
+_JOB = 2_000
+"""Shapes in one job of a queue, at most: their files are some 100 MB, which cross at once."""
 _PROBES = (3, 8)
 """First shapes that say whether a procedure is broken: all too slow, or all failed."""
 Finished = TypeVar("Finished")
+Item = TypeVar("Item")
+Part = TypeVar("Part")
+Result = TypeVar("Result")
 
 
 class Workers:
@@ -29,7 +37,7 @@ class Workers:
 
     The results are in the order of the request and do not depend on the number of workers, nor on where they are.
 
-    count: how many build at the same time; one a core by default.
+    count: how many build at the same time; one a core by default. Those of a ``Cluster`` are its own.
     shown: what the author's code prints goes to standard error; by default its last lines are kept for failures.
     executor: builds on other machines; by default this one builds.
 
@@ -49,7 +57,8 @@ class Workers:
     ) -> None:
         self.procedure = procedure
         self.home = procedure.path.parent if procedure.path else None
-        self.count = count or cores()
+        self.executor = executor
+        self.count = executor.count if isinstance(executor, Cluster) else count or cores()
         limits = limits or Limits()
         self.limits = replace(limits, seconds=procedure.seconds) if procedure.seconds else limits
         self.costs: list[float] = []
@@ -115,7 +124,7 @@ class Workers:
             self.builders.run(parameters, [probes[i : i + 1] for i in range(len(probes))], took, tick)
             done = max(done, probes.stop)
             _give_up_if_broken([result for result in results[:done] if result is not None], count)
-        self.builders.run(parameters, self._slices(range(done, len(parameters))), took, tick)
+        self.builders.run(parameters, self.slices(range(done, len(parameters))), took, tick)
         return cast(list[Build], results)
 
     def make(
@@ -139,7 +148,7 @@ class Workers:
         yield from in_threads(finish, first, self.count)
         rest = range(len(first), len(parameters))
         if isinstance(self.builders, Elsewhere):
-            chunks = [[parameters[i] for i in piece] for piece in self._slices(rest)]
+            chunks = [[parameters[i] for i in piece] for piece in self.slices(rest)]
             for done, finished in enumerate(self.builders.stream(chunks, finish), len(first) + 1):
                 progress(done)
                 yield finished
@@ -151,6 +160,30 @@ class Workers:
 
             yield from in_threads(finish, self.build(parameters[start : start + wave], told), self.count)
 
+    def each(self, function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
+        """What a function makes of each item, in order: in threads, or in chunks on the machines of the executor.
+
+        function: of a module, or a ``partial`` of one, so that it can be sent, as the items can.
+        """
+        if not isinstance(self.builders, Elsewhere):
+            return in_threads(function, items, self.count)
+        chunks = [[items[i] for i in piece] for piece in self.slices(range(len(items)))]
+        return [result for part in self.spread(partial(mapped, function=function), chunks) for result in part]
+
+    def spread(self, task: Callable[[Crew, Part], Result], parts: Iterable[Part]) -> Generator[Result, None, None]:
+        """What a task makes of each part of some work, in order; the shapes that it needs are built where it is done.
+
+        task: as the function of ``each``. parts: have lengths, and can be sent; see ``slices``.
+        """
+        if not isinstance(self.builders, Elsewhere):
+            yield from (task(self, part) for part in parts)
+            return
+        with closing(self.builders.answers(task, cast(Iterable[Sequence[object]], parts))) as answers:
+            for done in answers:
+                self.costs += done.costs
+                self.opened.update(done.opened)
+                yield done.result
+
     def elsewhere(self, builds: Sequence[Build]) -> list[Build]:
         """The same shapes built again, each in another process than the one that it was built in.
 
@@ -158,9 +191,13 @@ class Workers:
         """
         return self.builders.elsewhere(builds) if builds else []
 
-    def _slices(self, rows: range) -> list[range]:
-        size = max(1, min(SLICE, len(rows) // (4 * self.count)))
-        return [rows[i : i + size] for i in range(0, len(rows), size)]
+    def slices(self, rows: range, most: int = SLICE) -> list[range]:
+        """Rows in chunks: some for each that builds, of ``most`` rows at most; of a queue one for each of its jobs."""
+        if isinstance(self.builders, Elsewhere) and self.builders.is_queue:
+            size = min(_JOB, -(-len(rows) // self.count))
+        else:
+            size = min(most, len(rows) // (4 * self.count))
+        return [rows[i : i + size] for size in [max(1, size)] for i in range(0, len(rows), size)]
 
 
 def _give_up_if_broken(probes: Sequence[Build], enough: int) -> None:

@@ -52,6 +52,9 @@ class Sent:
     @classmethod
     def outward(cls, procedure: Procedure) -> Sent:
         """For other machines: it is built there in the working folder of this process, from the same files."""
+        if procedure.path and (module := sys.modules.get(procedure.function.__module__)):
+            # Conditions of parameters are sent with the work. They may be functions of a file that only we have loaded.
+            cloudpickle.register_pickle_by_value(module)
         sent, named = cls.of(procedure), (procedure.path, *procedure.helpers)
         files = tuple(file for file in named if file and file.is_file())
         working = sent.working or Path.cwd()

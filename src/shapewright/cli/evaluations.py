@@ -9,7 +9,7 @@ import typer
 
 from shapewright.cli.bars import progress_bars
 from shapewright.cli.console import evaluation_means, out, print_evaluations, print_json
-from shapewright.cli.options import Json, PresetOption, ProcedureArgument, with_settings
+from shapewright.cli.options import ClusterOption, Json, PresetOption, ProcedureArgument, with_settings
 from shapewright.procedures import load_procedure
 from shapewright.settings import Settings
 
@@ -25,9 +25,11 @@ def evaluate(
         Literal["cameras", "views", "both"] | None,
         typer.Option(help="cameras: fixed against learned; views: 1, 2, 3 and 5 cameras; both: all combinations."),
     ] = None,
+    cluster: ClusterOption = None,
     json: Json = False,
 ) -> None:
     """Measure how well the parameters of a procedure are predicted, on samples that were held out."""
+    from shapewright.building.clusters import where
     from shapewright.fitting.evaluation import evaluate as train_and_measure
     from shapewright.fitting.evaluation import summary, variants
 
@@ -35,8 +37,8 @@ def evaluate(
     author = load_procedure(procedure)
     records = []
     for variant in variants(settings, compare):
-        with progress_bars() as listen:
-            results = train_and_measure(author, variant, range(seeds), listen, refined)
+        with where(cluster) as there, progress_bars() as listen:
+            results = train_and_measure(author, variant, range(seeds), listen, refined, there)
         seconds = [result.seconds for result in results]
         table = summary(results)
         record = {"cameras": variant.cameras, "views": variant.views, "parameters": table, "seconds": seconds}

@@ -12,7 +12,7 @@ from rich.markup import escape
 
 from shapewright.cli.bars import interruptible
 from shapewright.cli.console import err, iteration_record, print_iteration, print_json
-from shapewright.cli.options import Front, Json, Keep, PresetOption, ProcedureArgument, Up, with_settings
+from shapewright.cli.options import ClusterOption, Front, Json, Keep, PresetOption, ProcedureArgument, Up, with_settings
 from shapewright.cli.runs import explain_saved, judged_by_marks
 from shapewright.procedures import load_procedure
 from shapewright.runs.folder import (
@@ -27,6 +27,7 @@ from shapewright.settings import Settings
 from shapewright.storage import cache_folder
 
 if TYPE_CHECKING:
+    from shapewright.building import Executor
     from shapewright.procedures import Procedure
     from shapewright.references import Collection
     from shapewright.runs.iteration import Iteration
@@ -79,9 +80,11 @@ def fit(
     chunk: Annotated[
         int, typer.Option(min=1, help="References that are searched for at the same time; fewer take less memory.")
     ] = 256,
+    cluster: ClusterOption = None,
     json: Json = False,
 ) -> None:
     """Find the parameters of every reference, build replicas, and report what the procedure cannot make yet."""
+    from shapewright.building.clusters import where
     from shapewright.fitting.pacing.opening import Opening
     from shapewright.references import Collection
 
@@ -89,7 +92,11 @@ def fit(
     check_free(folder)
     settings, author = Settings.preset(preset, **chosen), load_procedure(procedure)
     # torch takes seconds to load: before it the first shapes are begun, and what is wrong with the files is said.
-    with interruptible(_NOTHING) as listen, Opening(author, settings, listen, previous is not None) as opening:
+    with (
+        where(cluster) as there,
+        interruptible(_NOTHING) as listen,
+        Opening(author, settings, listen, previous is not None, there) as opening,
+    ):
         loaded = Collection.load(references, up=up, front=front, keep=keep or ())
         check_writable(folder)
         opening.wait()
@@ -117,7 +124,8 @@ def fit(
         )
     _save(iteration, folder)
     if explain:
-        _explain(iteration, author, loaded, folder)
+        with where(cluster) as there:
+            _explain(iteration, author, loaded, folder, there)
     unfinished.remove()
     if json:
         print_json(iteration_record(iteration, folder))
@@ -149,12 +157,14 @@ def _save(iteration: Iteration, folder: Path) -> None:
         raise RunError(f"{error}\nThe run is whole in {refuge}; free some space and move it") from error
 
 
-def _explain(iteration: Iteration, procedure: Procedure, references: Collection, folder: Path) -> None:
+def _explain(
+    iteration: Iteration, procedure: Procedure, references: Collection, folder: Path, executor: Executor | None
+) -> None:
     """Explain a run that is saved; whatever goes wrong, the run stays whole, and the message says so."""
     remains = f"the run is whole in {folder}; explain it with: shapewright explain {folder}"
     try:
         with interruptible(remains) as listen:
-            explain_saved(iteration, procedure, references, folder, listen)
+            explain_saved(iteration, procedure, references, folder, listen, executor=executor)
     except typer.Exit:
         raise
     except Exception as error:

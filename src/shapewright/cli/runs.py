@@ -17,7 +17,7 @@ from shapewright.cli.console import (
     print_explanation,
     print_json,
 )
-from shapewright.cli.options import Json, Workers
+from shapewright.cli.options import ClusterOption, Json, Workers
 from shapewright.procedures.forms import Form
 from shapewright.runs.folder import RunError, previous_run
 from shapewright.runs.marks import marks_path
@@ -25,6 +25,7 @@ from shapewright.settings import JudgeName, Settings
 from shapewright.storage import cache_folder
 
 if TYPE_CHECKING:
+    from shapewright.building import Executor
     from shapewright.judging.calibration import Calibration
     from shapewright.procedures import Procedure
     from shapewright.progress import Listener
@@ -40,18 +41,20 @@ def explain(
         str | None, typer.Option(help="Where the collection is now.  [dim]default: where it was[/]")
     ] = None,
     suggestions: Annotated[bool, typer.Option(help="Try what to write next; takes longer.")] = True,
+    cluster: ClusterOption = None,
     workers: Workers = None,
     json: Json = False,
 ) -> None:
     """Say where and why replicas differ from their references, and what to write next; renews the run's report."""
+    from shapewright.building.clusters import where
     from shapewright.runs.inputs import procedure_of, references_of
     from shapewright.runs.iteration import Iteration
 
     run = run.absolute()
     iteration = Iteration.load(run)
     procedure, collection = procedure_of(run, iteration), references_of(iteration, references)
-    with interruptible("the run is as it was") as listen:
-        record = explain_saved(iteration, procedure, collection, run, listen, suggestions, workers)
+    with where(cluster) as there, interruptible("the run is as it was") as listen:
+        record = explain_saved(iteration, procedure, collection, run, listen, suggestions, workers, there)
     if json:
         print_json({"run": str(run), "report": str(run / "report.html"), **record})
     else:
@@ -167,10 +170,13 @@ def explain_saved(
     progress: Listener | None,
     suggestions: bool = True,
     workers: int | None = None,
+    executor: Executor | None = None,
 ) -> dict[str, Any]:
     """Explain an iteration that is saved in a folder, and put that into the folder; returns the record."""
     from shapewright.feedback.explanation import explain as explain_iteration
     from shapewright.feedback.record import record_of, write
 
-    explanation = explain_iteration(iteration, procedure, references, progress, cache_folder(), suggestions, workers)
+    explanation = explain_iteration(
+        iteration, procedure, references, progress, cache_folder(), suggestions, workers, executor=executor
+    )
     return write(run, record_of(explanation), previous_run(run, set(iteration.names)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -68,7 +67,7 @@ def sample(
     json: Json = False,
 ) -> None:
     """Write random shapes of a procedure, or those that a file lists, and a table of their parameters and soundness."""
-    from shapewright.building.clusters import opened
+    from shapewright.building.clusters import where
     from shapewright.fitting.samples import MANIFEST, write_samples
     from shapewright.progress import Progress
 
@@ -78,21 +77,21 @@ def sample(
     given = None if parameters is None else _listed(parameters, author)
     count = count if given is None else len(given)
     stopped = f"what {MANIFEST} lists is whole; the same command adds the others"
-    with opened(cluster) if cluster else nullcontext() as there, interruptible(stopped) as listen:
+    with where(cluster) as there, interruptible(stopped) as listen:
         written = write_samples(
             author,
             count,
             folder,
             format,
             seed,
-            workers or (there.count if there else None),
+            workers,
             lambda done, total: listen(Progress("sample", done, total)),
             given,
             verbose,
             shard=shard,
             like=like,
             parquet=parquet,
-            executor=there.executor if there else None,
+            executor=there,
         )
     if written.failed and not written.shapes and not shard:
         raise ProcedureError(f"none of {count} shapes could be built: {written.failures}")

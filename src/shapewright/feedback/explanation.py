@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from shapewright.building import Build, Failure, Workers
+from shapewright.building import Build, Executor, Failure, Workers
 from shapewright.feedback.case import Case, DrawnCase, Replica
 from shapewright.feedback.causes.causes import causes
 from shapewright.feedback.causes.drawn_cases import drawn_causes, in_place
@@ -14,7 +14,7 @@ from shapewright.feedback.causes.failures import failures
 from shapewright.feedback.causes.shared import SharedCause, shared_causes
 from shapewright.feedback.suggestions import Suggestion, no_suggestions, suggestions
 from shapewright.feedback.surfaces.areas import areas
-from shapewright.feedback.surfaces.residuals import residuals
+from shapewright.feedback.surfaces.residuals import Residuals, residuals
 from shapewright.feedback.surfaces.visible_surface import VisibleSurface
 from shapewright.feedback.trials.tried import Tried
 from shapewright.fitting.start import for_procedure
@@ -29,7 +29,6 @@ from shapewright.runs.inputs import references_of
 from shapewright.runs.iteration import Iteration
 from shapewright.shapes import Drawing, Mesh, Points
 from shapewright.survey.preparation import prepared
-from shapewright.threads import in_threads
 
 _IN_VIEWS = (
     "the references are pictures of objects, of which nobody knows all sides: they cannot be explained yet. The report "
@@ -67,6 +66,7 @@ def explain(
     suggest: bool = True,
     workers: int | None = None,
     rules: Sequence[Rule] | None = None,
+    executor: Executor | None = None,
 ) -> Explanation:
     """Explain every reference of an iteration that has a replica, and that follows no other one.
 
@@ -79,12 +79,14 @@ def explain(
         suggest: whether to try what to write next, which takes longer.
         workers: processes and threads; by default as in the iteration's settings.
         rules: the library that suggestions draw on; by default all of ``rules.library.library``.
+        executor: builds, searches and judges on other machines, see ``sample``.
 
     Raises:
         RunError: the references are to be loaded, but were made in memory or are not where they were; or they are
             pictures of objects; or all of them are points. What is said goes by surfaces, and those of points are not
             known. Of a collection with meshes the meshes are explained.
         KeyError: the collection lacks a reference of the iteration.
+        ExecutorError: an executor lost the same work twice.
     """
     references = references or references_of(iteration)
     if iteration.collection.get("pictures") == "views":
@@ -96,9 +98,9 @@ def explain(
     collection = _collection(references, iteration)
     check_explainable(collection)
     stages = Stages(progress, _SHARES if suggest and references.kind is Mesh else _OF_CAUSES)
-    with Workers.of(procedure, settings) as crew:
+    with Workers.of(procedure, settings, executor) as crew:
         stages.begin("describe", len(collection))
-        judge = Judge.of(collection, settings, cache)
+        judge = Judge.of(collection, settings, cache, crew=crew)
         if references.kind is Drawing:
             stages.begin("differences", 3)
             built = _built(iteration, crew)
@@ -107,7 +109,7 @@ def explain(
             return _explanation(procedure, drawings, (), _failed(iteration, built), stages)
         stages.begin("differences", 3)
         built = _built(iteration, crew)
-        cases = _cases(iteration, built, judge)
+        cases = _cases(iteration, built, judge, crew)
         stages.begin("causes", 4)
         cases = causes(cases, iteration.predictor, crew, judge, stages)
         unsolved = [case for case in cases if case.nearest.apart > 1.0]
@@ -147,7 +149,7 @@ def _collection(references: Collection, iteration: Iteration) -> Collection:
     return collection.turned([turned.get(name, 0) // 90 for name in collection.names]) if turned else collection
 
 
-def _cases(iteration: Iteration, built: Built, judge: Judge) -> list[Case]:
+def _cases(iteration: Iteration, built: Built, judge: Judge, crew: Workers) -> list[Case]:
     """A case for each reference whose replica can be built and measured."""
     results = iteration.results
     shapes = [reference.shape for reference in judge.references]
@@ -156,13 +158,16 @@ def _cases(iteration: Iteration, built: Built, judge: Judge) -> list[Case]:
     found = [Replica.of(row, build, standing) for (row, build), standing in zip(built, standings, strict=True)]
     replicas = [replica for replica in found if replica]
 
-    def case(replica: Replica) -> Case:
-        result, reference = results[replica.row], judge.references.references[replica.row].shape
-        assert isinstance(reference, Mesh)
-        where = residuals(VisibleSurface.of(reference), replica.mesh)
-        return Case.of(result.name, reference, result.grade == "replicated", replica, where)
+    pairs = [(mesh, r.mesh) for r in replicas if isinstance(mesh := shapes[r.row], Mesh)]
+    return [
+        Case.of(results[r.row].name, reference, results[r.row].grade == "replicated", r, where)
+        for r, (reference, _), where in zip(replicas, pairs, crew.each(_apart, pairs), strict=True)
+    ]
 
-    return in_threads(case, replicas, judge.settings.workers)
+
+def _apart(pair: tuple[Mesh, Mesh]) -> Residuals:
+    reference, replica = pair
+    return residuals(VisibleSurface.of(reference), replica)
 
 
 def _drawings(iteration: Iteration, built: Built, crew: Workers, judge: Judge, stages: Stages) -> list[DrawnCase]:

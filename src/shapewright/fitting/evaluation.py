@@ -49,8 +49,8 @@ def evaluate(
 ) -> list[Evaluation]:
     """Train once for each seed, and measure; by default once, with the settings' own seed.
 
-    refined: most held-out samples that the search is measured on. executor: builds the shapes on other machines, see
-    ``sample``. Raises ProcedureError and ExecutorError as ``fit`` does.
+    refined: most held-out samples that the search is measured on. executor: builds, searches and judges on other
+    machines, see ``sample``. Raises ProcedureError and ExecutorError as ``fit`` does.
     """
     settings = settings or Settings()
     evaluations = []
@@ -97,7 +97,7 @@ def _refined(
     shapes = Collection.of({f"{i:03d}": shape for i, shape in enumerate(held_out.shapes)})
     sides: list[float | None] = [None] * len(shapes) if held_out.extents is None else held_out.extents.tolist()
     sized = tuple(replace(each, extent=side) for each, side in zip(shapes, sides, strict=True))
-    judge = Judge.of(replace(shapes, references=sized), settings)
+    judge = Judge.of(replace(shapes, references=sized), settings, crew=crew)
     prediction = lesson.predictor.infer(held_out.shapes, sides)
     _, fields = judge.nearest(crew.build(prediction.decode()))
     stages.begin("refine", 1)

@@ -12,7 +12,6 @@ from shapewright.progress import Stages
 from shapewright.references import Collection
 from shapewright.settings import Searching
 from shapewright.shapes import Drawing, Mesh, ReferenceShape, Shape, Views
-from shapewright.threads import in_threads
 
 _CLEARLY = 0.9
 """A turn is made only if it lowers the cost to this share: what fits about equally well both ways is not turned."""
@@ -38,12 +37,11 @@ def quarter_turns(
 def _costs(references: Collection, predictor: Predictor, crew: Workers) -> list[float]:
     shapes = [reference.shape for reference in references]
     builds = crew.build(predictor.predict(shapes, references.extents))
+    return crew.each(_cost, [(shape, build.shape) for shape, build in zip(shapes, builds, strict=True)])
 
-    def cost(pair: tuple[ReferenceShape, Shape | None]) -> float:
-        reference, replica = pair
-        if isinstance(reference, Drawing | Views) or not isinstance(replica, Mesh):
-            return np.inf
-        return PosedDifference(reference)(replica) if isinstance(reference, Mesh) else scan_cost(reference, replica)
 
-    pairs = [(shape, build.shape) for shape, build in zip(shapes, builds, strict=True)]
-    return in_threads(cost, pairs, crew.count)
+def _cost(pair: tuple[ReferenceShape, Shape | None]) -> float:
+    reference, replica = pair
+    if isinstance(reference, Drawing | Views) or not isinstance(replica, Mesh):
+        return np.inf
+    return PosedDifference(reference)(replica) if isinstance(reference, Mesh) else scan_cost(reference, replica)

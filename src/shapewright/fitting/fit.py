@@ -61,7 +61,7 @@ def fit(
         known: parameters that are worth a trial, by the name of their reference: those of a suggestion, for instance.
         opening: the procedure's first samples with these settings, where they are being built already; its workers
             build all else as well.
-        executor: builds the shapes of samples and of the search on other machines, see ``sample``; all else stays here.
+        executor: builds, draws, describes, searches and judges on other machines, see ``sample``; training stays here.
         unfinished: keeps what is done, so that the same call goes on after it was stopped. Its owner removes it when
             the run is written.
         chunk: references that are searched for at the same time; fewer take less memory, and change no result.
@@ -71,10 +71,10 @@ def fit(
         CollectionError: no picture can be read as one of an object; a reference to leave out is none, or nothing is
             left.
         ExecutorError: an executor lost the same work twice.
-        ValueError: there are both an opening and an executor.
+        ValueError: there are both an opening, which has an executor of its own, and an executor.
     """
     if opening and executor:
-        raise ValueError("the workers of an opening build here: leave out the opening or the executor")
+        raise ValueError("the workers of an opening have an executor already, or build here: give it to the opening")
     settings, unfinished = settings or Settings(), unfinished or Unfinished()
     references = references if references.taught else stand(procedure, references, settings, progress, previous)
     references = for_procedure(references, procedure)
@@ -93,7 +93,7 @@ def fit(
         stock.keep()
         turns = quarter_turns(fitted, lesson.predictor, crew, settings, stages)
         stages.begin("describe", len(fitted))
-        judges = Judges(fitted.turned(turns), settings, cache, chunk)
+        judges = Judges(fitted.turned(turns), settings, cache, chunk, crew)
         passes = Passes(crew, judges, unfinished, stages)
         found = passes.searched(lesson, passes.known(start), 0, not settings.rounds, start.new)
         for number in range(1, settings.rounds + 1):

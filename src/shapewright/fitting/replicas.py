@@ -132,7 +132,11 @@ def replicate(crew: Workers, judge: Judge, lesson: Lesson, search: Search, told:
         return replicas
     told.begin("refine", 1)
     start = SearchStart(
-        search.prediction.take(rows), [known[i] for i in rows], search.new, first=search.first, many=search.many
+        search.prediction.take(rows),
+        [known[i] for i in rows],
+        search.new,
+        numbers=range(search.first, search.first + len(rows)),
+        many=search.many,
     )
     if judge.references.in_views:
         shown = [shape for i in rows if isinstance(shape := judge.references.references[i].shape, Views)]

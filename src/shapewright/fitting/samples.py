@@ -150,9 +150,7 @@ def write_samples(
             "repeat the command to go on"
         ) from error
     except ExecutorError as error:
-        raise RunError(
-            f"{folder}: {error}; the shapes in its manifest are whole: repeat the command to go on"
-        ) from error
+        raise RunError(f"{folder}: {error} to go on: the shapes in its manifest are whole") from error
     written = [row for row in rows if row[0]]
     unsound = sum(row[columns.index("sound")] == "False" for row in written)
     failures = describe_failures(failed) if failed else ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -37,6 +38,9 @@ class DrawingTarget:
         self._describe = functools.cache(functools.partial(_outline, shape))
         self._boundary = functools.cache(functools.partial(Boundary, shape))
         self._blurred = functools.cache(functools.partial(BlurredDifference, shape))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.shape, self._settings)
 
     @property
     def outline(self) -> outline.Outline | None:

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from shapewright.building import Build
+from shapewright.building import Build, Workers
 from shapewright.comparison.grouping import Group
 from shapewright.comparison.remainders import remainder
 from shapewright.judging.drawing_target import DrawingTarget
-from shapewright.judging.mesh_target import MeshTarget
+from shapewright.judging.mesh_target import MeshTarget, described
 from shapewright.judging.paper import Metric
 from shapewright.judging.scans.points_target import REACH, PointsTarget
-from shapewright.judging.target import Measures, Target
+from shapewright.judging.target import Measures, Sought, Target
 from shapewright.judging.verdict import Evidence, Grade, Standing, Verdict, apart_of
 from shapewright.judging.views.view_target import ViewTarget
 from shapewright.references import Collection
@@ -31,6 +31,8 @@ from shapewright.shapes.shelf import fresh
 from shapewright.threads import in_threads
 
 Rows = Sequence[int] | Ints  # indices of references in their collection
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 
 
 def target_of(shape: ReferenceShape, settings: Settings, cache: Path | None = None, most: int = 1) -> Target:
@@ -70,6 +72,7 @@ class Judge:
     settings: Settings  # threads, and what the targets were made with
     lead: Target  # says what holds for the whole collection, such as the goal
     sized: bool  # whether sizes count in the whole collection
+    crew: Workers | None = None  # on whose machines it measures, where these are other ones
 
     @classmethod
     def of(
@@ -78,19 +81,23 @@ class Judge:
         settings: Settings,
         cache: Path | None = None,
         rows: Rows | None = None,
+        crew: Workers | None = None,
     ) -> Judge:
-        """Describe the references, or some ``rows`` of them; cache: a folder that keeps the descriptors of meshes.
+        """Describe the references, or some ``rows`` of them. A judge of some measures them as one of all does.
 
-        A judge of some measures them as one of all does.
+        cache: a folder that keeps the descriptors of meshes. crew: measures on other machines, if it builds there.
         """
         shapes = [reference.shape for reference in references]
         most = max((len(shape) for shape in shapes if isinstance(shape, Views)), default=1)
         some = references if rows is None else references.part(rows)
         targets = tuple(target_of(reference.shape, settings, cache, most) for reference in some)
-        in_threads(lambda target: target.visible, targets, settings.workers)
+        crew = crew if crew and crew.executor else None
+        if crew:
+            targets = described(targets, settings, crew.each, cache)
+        in_threads(_visible, targets, settings.workers)
         is_whole = rows is None or (len(rows) > 0 and rows[0] == 0)
         lead = targets[0] if is_whole else target_of(shapes[0], settings, cache, most)
-        return cls(some, targets, settings, lead, any(references.extents))
+        return cls(some, targets, settings, lead, any(references.extents), crew)
 
     @property
     def metric(self) -> Metric:
@@ -121,32 +128,28 @@ class Judge:
     def nearest(self, builds: Sequence[Build], rows: Rows | None = None) -> tuple[Floats, Ints]:
         """Distances as above, and of each pair the light field in which it differs least: by that it is searched on."""
         pairs = zip(self._targets(rows), builds, strict=True)
-        found = in_threads(lambda pair: pair[0].nearest(pair[1].shape), pairs, self.settings.workers)
+        found = self._each(_nearest, [(target, build.shape) for target, build in pairs])
         distances, fields = [distance for distance, _ in found], [field for _, field in found]
         return np.array(distances, dtype=np.float64), np.array(fields, dtype=np.int64)
 
     def fidelities(self, shapes: Sequence[Shape | None], rows: Rows | None = None) -> list[float]:
         """The fidelity of each shape to its reference, those of ``rows`` or all, without regions; NaN for none."""
-        pairs = zip(self._targets(rows), shapes, strict=True)
-        found = in_threads(lambda pair: pair[0].fidelity(pair[1]), pairs, self.settings.workers)
+        found = self._each(_fidelity, list(zip(self._targets(rows), shapes, strict=True)))
         return [value * same for value, same in zip(found, self._likenesses(shapes, rows), strict=True)]
 
     def evidence(self, builds: Sequence[Build], rows: Rows | None = None) -> list[Evidence]:
         """The fidelity of each build to its reference, those of ``rows`` or all, and where the two differ."""
         pairs = zip(self._targets(rows), builds, strict=True)
-        found = in_threads(lambda pair: pair[0].evidence(pair[1].shape), pairs, self.settings.workers)
+        found = self._each(_evidence, [(target, build.shape) for target, build in pairs])
         same = self._likenesses([build.shape for build in builds], rows)
         return [replace(each, value=each.value * likely) for each, likely in zip(found, same, strict=True)]
 
     def places(self, builds: Sequence[Build]) -> list[tuple[tuple[float, ...], ...]]:
         """From where each build is seen in the views of its reference, see ``Result``; nothing for other references."""
-
-        def place(pair: tuple[Target, Build]) -> tuple[tuple[float, ...], ...]:
-            target, build = pair
-            found = target.in_view(build.shape) if isinstance(target, ViewTarget) else None
-            return tuple(map(tuple, found.places.tolist())) if found else ()
-
-        return in_threads(place, zip(self.targets, builds, strict=True), self.settings.workers)
+        if not self.references.in_views:
+            return [()] * len(builds)
+        pairs = zip(self.targets, builds, strict=True)
+        return self._each(_place, [(target, build.shape) for target, build in pairs])
 
     def measures(
         self, builds: Sequence[Build], distances: Floats, evidence: Sequence[Evidence] | None = None
@@ -154,12 +157,12 @@ class Judge:
         """All that can be measured of one build for each reference. distances, (N,), and evidence are known already."""
         evidence = self.evidence(builds) if evidence is None and self.sized else evidence
         known = [None] * len(builds) if evidence is None else [each.value for each in evidence]
-        each = zip(self.targets, builds, distances.tolist(), known, strict=True)
-        return in_threads(lambda one: one[0].measures(one[1].shape, *one[2:]), each, self.settings.workers)
+        each = zip(self.targets, [build.shape for build in builds], distances.tolist(), known, strict=True)
+        return self._each(_measures, list(each))
 
     def search_costs(self, pairs: Sequence[tuple[int, Shape]]) -> list[float]:
         """Costs to search by: of a replica against the reference with that index, in the pose that it has."""
-        return in_threads(lambda pair: self.targets[pair[0]].cost(pair[1]), pairs, self.settings.workers)
+        return self._each(_cost, [(self.targets[row], shape) for row, shape in pairs])
 
     def measure(self, rows: Rows, fields: Rows | None = None) -> Measure:
         """The residuals for a search for some references; it gets replicas with their places among ``rows``.
@@ -167,9 +170,11 @@ class Judge:
         fields: the light field to go by for each, the first by default.
         """
         pairs = zip(self._targets(rows), np.zeros(len(rows), int) if fields is None else fields, strict=True)
-        forms = in_threads(lambda pair: pair[0].objective(int(pair[1])), pairs, self.settings.workers)
-        objectives: list[Objective | None] = [
-            SizedObjective(form, extent, self.lead.parts) if form and extent else form
+        forms = [Sought(target, int(field)) for target, field in pairs]
+        if not self.crew:  # two threads that need one at the same time would both make it
+            in_threads(lambda form: form.made(), forms, self.settings.workers)
+        objectives: list[Objective] = [
+            SizedObjective(form, extent, self.lead.parts) if extent else form
             for form, extent in zip(forms, self._extents(rows), strict=True)
         ]
         return measure_of(objectives, self.settings.workers)
@@ -206,10 +211,20 @@ class Judge:
             shapes = self.references.references
 
             def lacks(i: int) -> Floats:
-                return remainder(fresh(shapes[i].shape), replicas[i])
+                return _remainder((shapes[i].shape, replicas[i]))
 
-            left = np.stack(in_threads(lacks, rows, self.settings.workers))
+            # One after the other: all replicas of a large run would not fit in the memory.
+            here = self.crew is None
+            found = (
+                in_threads(lacks, rows, self.settings.workers)
+                if here
+                else self._each(_remainder, [(shapes[i].shape, replicas[i]) for i in rows])
+            )
+            left = np.stack(found)
         return type(self.targets[0]).groups(names, self._targets(rows), self.settings, left)
+
+    def _each(self, function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
+        return self.crew.each(function, items) if self.crew else in_threads(function, items, self.settings.workers)
 
     def _likenesses(self, shapes: Sequence[Shape | None], rows: Rows | None) -> list[float]:
         """How like the sizes of shapes are to those that they are to have: 1 where proportions count alone."""
@@ -222,3 +237,40 @@ class Judge:
 
     def _targets(self, rows: Rows | None) -> Sequence[Target]:
         return self.targets if rows is None else [self.targets[int(row)] for row in rows]
+
+
+# Functions of a module can be sent to other machines.
+
+
+def _visible(target: Target) -> bool:
+    return target.visible
+
+
+def _nearest(pair: tuple[Target, Shape | None]) -> tuple[float, int]:
+    return pair[0].nearest(pair[1])
+
+
+def _fidelity(pair: tuple[Target, Shape | None]) -> float:
+    return pair[0].fidelity(pair[1])
+
+
+def _evidence(pair: tuple[Target, Shape | None]) -> Evidence:
+    return pair[0].evidence(pair[1])
+
+
+def _measures(one: tuple[Target, Shape | None, float, float | None]) -> Measures:
+    return one[0].measures(*one[1:])
+
+
+def _cost(pair: tuple[Target, Shape]) -> float:
+    return pair[0].cost(pair[1])
+
+
+def _remainder(pair: tuple[ReferenceShape, Shape | None]) -> Floats:
+    return remainder(fresh(pair[0]), pair[1])
+
+
+def _place(pair: tuple[Target, Shape | None]) -> tuple[tuple[float, ...], ...]:
+    target, shape = pair
+    found = target.in_view(shape) if isinstance(target, ViewTarget) else None
+    return tuple(map(tuple, found.places.tolist())) if found else ()

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -15,12 +15,13 @@ from shapewright.comparison.gaps import Surface
 from shapewright.comparison.grouping import Group, group
 from shapewright.comparison.leaders import LARGE, group_by_leaders
 from shapewright.comparison.light_field.aligned import AlignedCost, nearest_field
+from shapewright.comparison.light_field.cache import keep, known
 from shapewright.comparison.posed import PosedDifference
 from shapewright.comparison.remainders import CUT, mixed
 from shapewright.judging.calibration import is_same
 from shapewright.judging.fidelity import Fidelity
 from shapewright.judging.paper import FAR, Metric, light_field_metric
-from shapewright.judging.target import Measures
+from shapewright.judging.target import Measures, Target
 from shapewright.judging.verdict import Evidence, Grade, grade_by
 from shapewright.settings import Settings
 from shapewright.shapes import Floats, Mesh, Shape
@@ -39,7 +40,7 @@ class Described(Protocol):
 
 
 class MeshTarget:
-    """One mesh; cache: a folder that keeps descriptors. See ``Target``.
+    """One mesh; cache: a folder that keeps descriptors. described: its descriptor, where it is known. See ``Target``.
 
     What takes time is kept by functools.cache, which lets threads make different things at the same time. A
     cached_property of Python 3.11 holds one lock for all objects of the class.
@@ -49,13 +50,24 @@ class MeshTarget:
     enough = -np.inf
     surprise_cost = 2.0  # a small hole costs 40; of 40 sampled shelves 5 keeps 2.7 % of the choices wrong, 2 1.7 %
 
-    def __init__(self, shape: Mesh, settings: Settings, cache: Path | None = None) -> None:
+    def __init__(
+        self,
+        shape: Mesh,
+        settings: Settings,
+        cache: Path | None = None,
+        described: light_field.Descriptor | None = None,
+    ) -> None:
         self.shape, self._settings, self._fidelity = shape, settings, Fidelity(shape)
-        self._describe = functools.cache(functools.partial(_descriptor, shape, cache))
+        self._describe = functools.cache(functools.partial(_descriptor, shape, cache, described))
         self._surface = functools.cache(functools.partial(Surface, shape, settings.seed))
         self._volume = functools.cache(functools.partial(volumes.Volume.of, shape))
         self._aligned = functools.cache(functools.partial(AlignedCost, shape))
         self._posed = functools.cache(functools.partial(PosedDifference, shape))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """It is sent with its descriptor, where that was made; what else takes time is made anew."""
+        described = self._describe() if self._describe.cache_info().currsize else None
+        return MeshTarget, (self.shape, self._settings, None, described)
 
     @property
     def descriptor(self) -> light_field.Descriptor | None:
@@ -128,6 +140,28 @@ class MeshTarget:
         return grouped(names, targets, settings, left)
 
 
+def described(
+    targets: Sequence[Target],
+    settings: Settings,
+    each: Callable[
+        [Callable[[Mesh], light_field.Descriptor | None], Sequence[Mesh]], list[light_field.Descriptor | None]
+    ],
+    cache: Path | None,
+) -> tuple[Target, ...]:
+    """The same targets, of which those of meshes know their descriptors; ``each`` makes those that are not kept yet."""
+    meshes = [target.shape if isinstance(target, MeshTarget) else None for target in targets]
+    found = [known(mesh, cache) if mesh and cache else None for mesh in meshes]
+    missing = [i for i, (mesh, its) in enumerate(zip(meshes, found, strict=True)) if mesh and not its]
+    for i, descriptor in zip(missing, each(_descriptor, [mesh for i in missing if (mesh := meshes[i])]), strict=True):
+        found[i] = descriptor
+        if descriptor and cache and (mesh := meshes[i]):
+            keep(mesh, descriptor, cache)
+    return tuple(
+        MeshTarget(mesh, settings, cache, its) if mesh else target
+        for target, mesh, its in zip(targets, meshes, found, strict=True)
+    )
+
+
 def grouped(
     names: Sequence[str], targets: Sequence[Described], settings: Settings, left: Floats | None = None
 ) -> tuple[Group, ...]:
@@ -146,7 +180,11 @@ def grouped(
     return group_by_leaders(names, between, cut, absolute, threads=settings.workers)
 
 
-def _descriptor(mesh: Mesh, cache: Path | None = None) -> light_field.Descriptor | None:
+def _descriptor(
+    mesh: Mesh, cache: Path | None = None, described: light_field.Descriptor | None = None
+) -> light_field.Descriptor | None:
+    if described:
+        return described
     try:
         return light_field.descriptor(mesh, cache=cache)
     except ValueError:

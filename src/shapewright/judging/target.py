@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Literal, Protocol, Self, get_type_hints
+from typing import Annotated, Any, Literal, Protocol, Self, get_type_hints
 
 from shapewright.comparison.grouping import Group
 from shapewright.judging.paper import Metric
@@ -120,3 +121,18 @@ class Target(Protocol):
 
         left: (N, K), see ``remainders``.
         """
+
+
+class Sought:
+    """What a search makes small of one target, see ``Target.objective``; it is sent as the target, and made anew."""
+
+    def __init__(self, target: Target, field: int) -> None:
+        self._target, self._field = target, field
+        self.made = functools.cache(functools.partial(target.objective, field))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Sought, (self._target, self._field)
+
+    def residual(self, replica: Shape) -> Floats | None:
+        form = self.made()
+        return form.residual(replica) if form else None

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from shapewright.building import Workers
+from shapewright.building import Crew
 from shapewright.parameters import Parameters, ParameterSpace, Prediction
 from shapewright.search.candidates import Candidate
 from shapewright.search.objective import Criterion
@@ -21,7 +21,7 @@ def is_small(space: ParameterSpace) -> bool:
 
 
 def best_of_all(
-    prediction: Prediction, criterion: Criterion, crew: Workers, progress: Callable[[int, int], None] | None = None
+    prediction: Prediction, criterion: Criterion, crew: Crew, progress: Callable[[int, int], None] | None = None
 ) -> list[Parameters]:
     """The parameters of the least cost for each reference; the predicted ones where nothing can be measured."""
     space, last = prediction.space, criterion.parts[-1]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
 
 from shapewright.parameters import Prediction
 from shapewright.shapes import Floats, Shape
@@ -26,14 +26,35 @@ class Objective(Protocol):
         """
 
 
-def measure_of(objectives: Sequence[Objective | None], threads: int | None = None) -> Measure:
-    """The measure of a search for several references, on several threads; None for one that nothing can replicate."""
+@dataclass(frozen=True, eq=False)
+class Residuals:
+    """The measure of a search for several references.
 
-    def residual(pair: tuple[int, Shape]) -> Floats | None:
-        objective = objectives[pair[0]]
+    objectives: of each; None for one that nothing can replicate.
+    threads: that measure; one where it was sent to, since a machine does other chunks beside it.
+    """
+
+    objectives: Sequence[Objective | None]
+    threads: int | None = None
+
+    def __call__(self, pairs: Sequence[tuple[int, Shape]]) -> Sequence[Floats | None]:
+        return in_threads(self._residual, pairs, self.threads)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Residuals, (self.objectives, 1)
+
+    def take(self, rows: Sequence[int]) -> Residuals:
+        """The measure for some of the references."""
+        return replace(self, objectives=[self.objectives[row] for row in rows])
+
+    def _residual(self, pair: tuple[int, Shape]) -> Floats | None:
+        objective = self.objectives[pair[0]]
         return objective.residual(pair[1]) if objective else None
 
-    return lambda pairs: in_threads(residual, pairs, threads)
+
+def measure_of(objectives: Sequence[Objective | None], threads: int | None = None) -> Residuals:
+    """The measure of a search for several references, on several threads; None for one that nothing can replicate."""
+    return Residuals(objectives, threads)
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +71,16 @@ class Criterion:
     enough: float = -math.inf  # a cost, by the last part, at which the search for a reference ends
     surprise_cost: float = 0.0  # by how much it rises
     reach: float = 1.0  # by which what moves call near to the goal is multiplied: more where noise is in all costs
+
+    @property
+    def divisible(self) -> bool:
+        """Whether it has ``take``: a measure of the caller's own cannot be taken apart."""
+        return isinstance(self.measure, Residuals)
+
+    def take(self, rows: Sequence[int]) -> Criterion:
+        """That of some of the references."""
+        assert isinstance(self.measure, Residuals)
+        return replace(self, measure=self.measure.take(rows))
 
     def surprise(self, prediction: Prediction, row: int, vector: Floats) -> float:
         """What it costs that the choices of an encoded vector (P,) are unlikely for one reference."""

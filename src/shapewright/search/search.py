@@ -9,17 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from shapewright.building import Workers
+from shapewright.building import Crew, Workers
 from shapewright.parameters import Parameters, Prediction
 from shapewright.search.budgets import QUICK, Budget
 from shapewright.search.candidates import Bounds, Candidate, others, points
 from shapewright.search.exhaustion import best_of_all, is_small
 from shapewright.search.moves import BuildingMove, Continue, Probe, Return, Scan, Step, SwitchChoices
 from shapewright.search.objective import Criterion
+from shapewright.search.parts import in_parts
 from shapewright.shapes import Floats
 
 _MOVED = 0.98
@@ -42,8 +44,20 @@ class SearchStart:
     new: AbstractSet[str] | None = None  # scalars that are new or other than when the known ones were searched for
     beside: Sequence[Sequence[Parameters]] | None = None  # for each reference more to start from
     within: tuple[Floats, Floats] | None = None  # the least and the greatest encoded scalars of each reference, (N, P)
-    first: int = 0  # place of the first of them where they are some of many, which draws each one's random points
-    many: int | None = None  # how many there are in all; None: these
+    numbers: Sequence[int] | None = None  # by which each reference draws its random points; None for 0 to N - 1
+    many: int | None = None  # how many there are in all, where they are some of these; None: these
+
+    def take(self, rows: Sequence[int]) -> SearchStart:
+        """Those of some of the references."""
+        some = np.asarray(rows)
+        return replace(
+            self,
+            prediction=self.prediction.take(some),
+            known=self.known and [self.known[row] for row in rows],
+            beside=self.beside and [self.beside[row] for row in rows],
+            within=self.within and (self.within[0][some], self.within[1][some]),
+            numbers=[self.numbers[row] if self.numbers else row for row in rows],
+        )
 
 
 @dataclass(eq=False)
@@ -77,14 +91,33 @@ def refine(
 ) -> list[Parameters]:
     """Better parameters for each reference, or the predicted ones where the search finds none.
 
-    progress: is told how many of the budget's rounds are over. The cost never rises above that of the prediction, where
-    the criterion has one part. A reference's result does not depend on the other references, but for spaces of few
-    shapes: all of them are built once where the references together may build as many.
+    progress: is told how many of the budget's rounds are over, or of the parts in which an executor searches. The cost
+    never rises above that of the prediction, where the criterion has one part. A reference's result does not depend on
+    the other references, but for spaces of few shapes: all of them are built once where the references together may
+    build as many.
     """
-    space, parts = start.prediction.space, criterion.parts
-    may = budget.evaluations(0) * (len(start.prediction) if start.many is None else start.many)
-    if start.within is None and is_small(space) and space.combinations <= may:
+    space, count = start.prediction.space, len(start.prediction)
+    may = budget.evaluations(0) * (count if start.many is None else start.many)
+    small = start.within is None and is_small(space) and space.combinations <= may
+    if isinstance(crew, Workers) and crew.executor and criterion.divisible:
+        search = partial(_refined, budget=budget, seed=seed, small=small)
+        return in_parts(start, criterion, crew, count, search, progress)
+    return _refined(start, criterion, crew, budget, seed, small, progress)
+
+
+def _refined(
+    start: SearchStart,
+    criterion: Criterion,
+    crew: Crew,
+    budget: Budget,
+    seed: int,
+    small: bool,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Parameters]:
+    """small: all shapes of the space are built."""
+    if small:
         return best_of_all(start.prediction, criterion, crew, progress)
+    space, parts = start.prediction.space, criterion.parts
     searches = [_begun(start, criterion, budget, seed, row) for row in range(len(start.prediction))]
     fallback = [space.canonical(space.decode(search.candidates[0].vector)) for search in searches]
     scale, rounds = 0, 0
@@ -136,7 +169,8 @@ def _begun(start: SearchStart, criterion: Criterion, budget: Budget, seed: int, 
     bounds = np.zeros(len(space)), np.ones(len(space))
     if start.within:
         bounds = start.within[0][row], start.within[1][row]
-    return _Search(row, candidates, bounds, np.random.default_rng([seed, start.first + row]), criterion.parts[0])
+    rng = np.random.default_rng([seed, start.numbers[row] if start.numbers else row])
+    return _Search(row, candidates, bounds, rng, criterion.parts[0])
 
 
 def _candidate(start: SearchStart, criterion: Criterion, budget: Budget, row: int, vector: Floats) -> Candidate:
@@ -175,7 +209,7 @@ def _built(
     move: BuildingMove,
     start: SearchStart,
     criterion: Criterion,
-    crew: Workers,
+    crew: Crew,
     patience: int | None,
 ) -> None:
     """Build and measure what a move tries in each search, learn from it, and see which searches end."""

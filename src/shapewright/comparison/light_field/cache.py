@@ -24,15 +24,27 @@ def described_once(mesh: Mesh, folder: Path, bits: int = 4) -> Descriptor:
     Any number of processes may use a folder at once: files appear whole, by a rename. Raises ValueError as
     ``description.describe`` does, and OSError when the folder cannot be written.
     """
-    path = folder / f"{shape_digest(mesh)}-{bits}bit-v{FORMAT}.npz"
-    known = _read(path, bits)
-    if known is not None:
-        return known
-    descriptor = describe(mesh, bits)
-    folder.mkdir(parents=True, exist_ok=True)
-    with whole_file(path) as partial, partial.open("wb") as file:
-        np.savez(file, coefficients=descriptor.coefficients)
+    descriptor = known(mesh, folder, bits)
+    if descriptor is None:
+        descriptor = describe(mesh, bits)
+        keep(mesh, descriptor, folder)
     return descriptor
+
+
+def known(mesh: Mesh, folder: Path, bits: int = 4) -> Descriptor | None:
+    """The descriptor from a folder, None where it is not there."""
+    return _read(_path(mesh, folder, bits), bits)
+
+
+def keep(mesh: Mesh, descriptor: Descriptor, folder: Path) -> None:
+    """Put a descriptor into a folder. Raises OSError when that cannot be written."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with whole_file(_path(mesh, folder, descriptor.bits)) as partial, partial.open("wb") as file:
+        np.savez(file, coefficients=descriptor.coefficients)
+
+
+def _path(mesh: Mesh, folder: Path, bits: int) -> Path:
+    return folder / f"{shape_digest(mesh)}-{bits}bit-v{FORMAT}.npz"
 
 
 def _read(path: Path, bits: int) -> Descriptor | None:

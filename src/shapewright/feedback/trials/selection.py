@@ -74,7 +74,7 @@ def selected(
     ideas: the likeliest first. known: replicas that no change may alter. evaluations: shapes built for searches, about.
     limit: of the number of changes. None only repeats part of what another does.
     """
-    with Workers.of(procedure, judge.settings) as crew:
+    with Workers.of(procedure, judge.settings, judge.crew.executor if judge.crew else None) as crew:
         trials = Trials(procedure.space, crew, misfits, judge, RandomShapes.of(crew, judge.settings.seed))
         prospects = [prospect for idea in ideas[:_BUILT] for prospect in _built(trials, idea, known)]
         leading = sorted(prospects, key=lambda prospect: -prospect.promise)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from shapewright.building import Workers
 from shapewright.comparison.grouping import Group
 from shapewright.judging.judge import Judge, target_of
 from shapewright.judging.paper import Metric
@@ -23,7 +24,7 @@ CHUNK = 256
 
 
 class Judges:
-    """A judge for each chunk of references, made when it is asked for; the last one stays.
+    """A judge for each chunk of references, made when it is asked for; the last one stays. crew: see ``Judge.of``.
 
     Attributes:
         references: all of them, turned as they are judged.
@@ -32,13 +33,18 @@ class Judges:
     """
 
     def __init__(
-        self, references: Collection, settings: Settings, cache: Path | None = None, chunk: int = CHUNK
+        self,
+        references: Collection,
+        settings: Settings,
+        cache: Path | None = None,
+        chunk: int = CHUNK,
+        crew: Workers | None = None,
     ) -> None:
         self.references, self.settings = references, settings
         count = -(-len(references) // chunk)
         ends = np.linspace(0, len(references), count + 1).round().astype(int).tolist()
         self.chunks = [range(start, end) for start, end in pairwise(ends)]
-        self._cache = cache
+        self._cache, self._crew = cache, crew
         self._last: tuple[range, Judge] | None = None
 
     @property
@@ -56,7 +62,7 @@ class Judges:
         if self._last is None or self._last[0] != chunk:
             self._last = None  # first, so that there are never two
             rows = chunk if self.many else None
-            self._last = chunk, Judge.of(self.references, self.settings, self._cache, rows)
+            self._last = chunk, Judge.of(self.references, self.settings, self._cache, rows, self._crew)
         return self._last[1]
 
     def groups(self, grades: Sequence[Grade], replicas: Sequence[Shape | None]) -> tuple[Group, ...]:
@@ -68,5 +74,5 @@ class Judges:
         if not rows:
             return ()
         some = replace(self.references, references=tuple(self.references.references[row] for row in rows))
-        judge = Judge.of(some, self.settings, self._cache)
+        judge = Judge.of(some, self.settings, self._cache, crew=self._crew)
         return judge.groups([grades[row] for row in rows], Lazy(len(rows), lambda place: replicas[rows[place]]))

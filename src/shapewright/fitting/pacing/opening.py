@@ -10,7 +10,7 @@ from types import TracebackType
 
 import numpy as np
 
-from shapewright.building import Build, Workers
+from shapewright.building import Build, Executor, Workers
 from shapewright.procedures import Procedure
 from shapewright.progress import Listener, Notice, Stages
 from shapewright.settings import Settings
@@ -36,10 +36,18 @@ class Opening:
     """
 
     def __init__(
-        self, procedure: Procedure, settings: Settings, listener: Listener | None = None, resumed: bool = False
+        self,
+        procedure: Procedure,
+        settings: Settings,
+        listener: Listener | None = None,
+        resumed: bool = False,
+        executor: Executor | None = None,
     ) -> None:
-        """listener: is called from another thread. resumed: an earlier run is carried on, see ``asked_of``."""
-        self.crew = Workers.of(procedure, settings)
+        """listener: is called from another thread. resumed: an earlier run is carried on, see ``asked_of``.
+
+        executor: builds on other machines, for whoever uses the workers later as well.
+        """
+        self.crew = Workers.of(procedure, settings, executor)
         self._stages, self._settings = Stages(listener), settings
         self._count = asked_of(settings, resumed)
         self._stop, self._known = threading.Event(), threading.Event()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -49,6 +50,9 @@ class PointsTarget:
         self._scan = functools.cache(functools.partial(_scan, shape, settings.seed))
         self._describe = functools.cache(functools.partial(_descriptor, shape))
         self._difference = functools.cache(self._made)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return PointsTarget, (self.shape, self._settings)
 
     @property
     def descriptor(self) -> light_field.Descriptor | None:

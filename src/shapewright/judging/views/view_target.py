@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -36,11 +37,14 @@ class ViewTarget:
     """What no picture shows goes by what is likely: one that is e times as likely is worth two of 64 x 64 pixels."""
 
     def __init__(self, shape: Views, settings: Settings, most: int = 1) -> None:
-        self.shape, self._settings = shape, settings
+        self.shape, self._settings, self._most = shape, settings, most
         self.parts = parts_of(most)
         self._difference = ViewsDifference(shape, most)
         self._fidelity = ViewFidelity(shape, self._difference)
         self._last = functools.lru_cache(maxsize=2)(self._in_view)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return ViewTarget, (self.shape, self._settings, self._most)
 
     @property
     def visible(self) -> bool:
