@@ -57,7 +57,7 @@ def print_iteration(iteration: Iteration, folder: Path) -> None:
         out.print(table)
         if len(iteration.groups) > 10:
             out.print(f"  and {len(iteration.groups) - 10} more groups")
-    asked = iteration.record["worth_marking"]
+    asked = iteration.head["worth_marking"]
     if asked:
         out.print("\nthe judge is least sure of these; mark what you see, and it learns your eye:")
         for name in asked:
@@ -112,7 +112,7 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
     """What ``fit --json`` prints."""
     from shapewright.runs.result import MEASURES
 
-    record = iteration.record
+    record = iteration.head
     return {
         "run": str(folder),
         "report": str(folder / "report.html"),
@@ -137,7 +137,7 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
         "seconds": record["seconds"],
         "results": {
             entry["name"]: {key: entry[key] for key in ("parameters", "grade", *MEASURES, "compatible", "group")}
-            for entry in record["references"]
+            for entry in iteration.entries()
         },
     }
 

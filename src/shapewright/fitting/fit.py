@@ -105,7 +105,7 @@ def fit(
         each.name: turns[fitted.names.index(each.of)] for each in like
     }
     results, groups = followed(references, like, results, groups, turned)
-    return recorded(procedure, judges, lesson, references, results, groups, turned, stages, crew.opened)
+    return recorded(procedure, judges, lesson, references, results, groups, turned, stages, unfinished, crew.opened)
 
 
 def _paced(stock: Stock, settings: Settings, stages: Stages, start: Start, unfinished: Unfinished) -> Settings:

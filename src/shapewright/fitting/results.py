@@ -14,6 +14,8 @@ from shapewright.comparison.grouping import Group
 from shapewright.fitting.chunks.forms import Measured
 from shapewright.fitting.chunks.judges import Judges
 from shapewright.fitting.chunks.passes import Found
+from shapewright.fitting.chunks.pictures import DrawnPictures
+from shapewright.fitting.keeping.unfinished import Unfinished
 from shapewright.fitting.learning import Lesson
 from shapewright.parameters import to_record
 from shapewright.procedures import Procedure
@@ -21,8 +23,9 @@ from shapewright.progress import Listener, Notice, Progress, Stages
 from shapewright.references import Collection
 from shapewright.references.standing import AUTO, axes_record
 from shapewright.runs.helpers import helpers_of, not_kept
-from shapewright.runs.iteration import Iteration, draw_pictures
+from shapewright.runs.iteration import Iteration
 from shapewright.runs.lazy import Lazy, later
+from shapewright.runs.pictures import draw_pictures
 from shapewright.runs.result import Result
 from shapewright.storage import printable
 from shapewright.survey.duplicates import Duplicate
@@ -121,18 +124,20 @@ def recorded(
     groups: tuple[Group, ...],
     turns: Mapping[str, int],
     stages: Stages,
+    unfinished: Unfinished,
     opened: Iterable[Opened] = (),
 ) -> Iteration:
     """The iteration, with pictures of its results.
 
     turns: quarter turns of references about the up axis, by name. opened: files that the procedure read.
     """
-    stages.begin("picture", 1)
+    stages.begin("picture", len(results) if judges.many else 1)
     kept = helpers_of(procedure, opened)
     if kept.too_large:
         stages.tell(Notice("not kept", not_kept(kept.too_large)))
     predictor = lesson.predictor
-    pictures = draw_pictures(results, judges.settings.workers)
+    threads, many = judges.settings.workers, judges.many
+    pictures = DrawnPictures(results, unfinished, stages, threads) if many else draw_pictures(results, threads)
     stages.end()
     return Iteration(
         results=results,

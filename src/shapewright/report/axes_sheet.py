@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import io
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from PIL import Image, ImageDraw
 
 from shapewright.references.orientation import AxesBy
 from shapewright.rendering.cameras import THUMBNAIL
+from shapewright.runs import packed
 
 SHEET = "axes.png"
 """Its name in the folder of a run."""
@@ -27,7 +29,9 @@ _BY: Mapping[AxesBy, str] = {
 _REACH = 0.72  # of an arrow, in units of the largest extent
 
 
-def draw_sheet(folder: Path, references: list[dict[str, Any]], axes: Mapping[str, Mapping[str, Any]]) -> Image.Image:
+def draw_sheet(
+    folder: Path, references: Sequence[dict[str, Any]], axes: Mapping[str, Mapping[str, Any]]
+) -> Image.Image:
     """Thumbnails of a run's folder with the axes of the files that point up (orange) and to the front (blue).
 
     First those that were turned, then those of which it is least sure.
@@ -43,9 +47,8 @@ def draw_sheet(folder: Path, references: list[dict[str, Any]], axes: Mapping[str
     draw = ImageDraw.Draw(sheet)
     for number, reference in enumerate(shown):
         x, y = number % _COLUMNS * _SIDE, number // _COLUMNS * (_SIDE + _TEXT)
-        file = folder / "thumbnails" / f"{reference['slug']}.reference.png"
-        if file.is_file():
-            with Image.open(file) as picture:
+        if content := packed.read(folder, f"thumbnails/{reference['slug']}.reference.png"):
+            with Image.open(io.BytesIO(content)) as picture:
                 small = picture.convert("RGBA").resize((_SIDE, _SIDE), Image.Resampling.LANCZOS)
             sheet.paste(small.convert("RGB"), (x, y), small.getchannel("A"))
         told = axes[reference["name"]]

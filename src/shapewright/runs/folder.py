@@ -13,9 +13,11 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
+from shapewright.runs import table
 from shapewright.storage import is_free, whole_folder
 
-FORMAT = 1
+FORMAT, LARGE_FORMAT = 1, 2
+"""Of records; one of a large run has its references in a table beside it."""
 RECORD, EXPLANATION = "iteration.json", "explanation.json"
 _NUMBER = re.compile(r"\d+")
 
@@ -109,7 +111,10 @@ def previous_run(folder: Path, names: set[str] | None = None) -> Path | None:
 
 
 def read_record(folder: Path) -> dict[str, Any]:
-    """The record of a run's folder. Raises RunError when there is none, or one of an unknown format."""
+    """The record of a run's folder. Raises RunError when there is none, or one of an unknown format.
+
+    The references of a large run are read from its table when they are asked for.
+    """
     path = folder / RECORD
     try:
         record = read_json(path)
@@ -117,9 +122,16 @@ def read_record(folder: Path) -> dict[str, Any]:
         raise RunError(f"{folder}: no run here: it holds no {RECORD}") from error
     except (OSError, ValueError) as error:
         raise RunError(f"{path}: cannot be read: {error}") from error
-    if record.get("format") != FORMAT:
+    if record.get("format") == LARGE_FORMAT:
+        try:
+            record["references"] = table.entries(folder, record["procedure"]["parameters"])
+        except ImportError as error:
+            raise RunError(f"{folder}: a large run; it needs pyarrow: pip install 'shapewright[scale]'") from error
+        except (OSError, ValueError) as error:
+            raise RunError(f"{folder / table.TABLE}: cannot be read: {error}") from error
+    elif record.get("format") != FORMAT:
         found = record.get("format")
-        raise RunError(f"{path} has format {found!r}; this version of shapewright reads format {FORMAT}")
+        raise RunError(f"{path} has format {found!r}; this version of shapewright reads formats up to {LARGE_FORMAT}")
     return record
 
 

@@ -7,33 +7,32 @@ import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from shapewright.comparison.grouping import Group
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import mean
 from shapewright.judging.verdict import Grade
 from shapewright.prediction.predictor import Predictor
-from shapewright.rendering.thumbnails import seen_from, thumbnail
-from shapewright.runs.folder import FORMAT, RECORD, new_folder, read_record
+from shapewright.runs import table
+from shapewright.runs.folder import FORMAT, LARGE_FORMAT, RECORD, new_folder, read_record
 from shapewright.runs.helpers import read_helpers, text_in, write_source
+from shapewright.runs.lazy import Lazy, later
 from shapewright.runs.marks import worth_marking
+from shapewright.runs.packed import packing
+from shapewright.runs.pictures import KeptPictures, Pictures, draw_pictures, pictures_of
 from shapewright.runs.result import MEASURES, Result, from_record, read_replica, replica_path, to_record
 from shapewright.settings import Settings
-from shapewright.shapes import Mesh
 from shapewright.shapes.files import encode
-from shapewright.shapes.shelf import fresh
 from shapewright.storage import cell, file_names
-from shapewright.threads import in_threads
 
 _AS_RECORDED = ("seconds", "procedure", "collection", "metrics", "versions", "created")
+_AFTER = ("groups", "worth_marking", "metrics", "seconds")
+"""Entries of a record that come after the references."""
 _AS_BEFORE = {"drop": "nothing", "duplicates": "each"}
 """Settings of runs of versions that did not have them."""
-Pictures = Mapping[str, tuple[bytes, bytes | None]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +40,8 @@ class Iteration:
     """The results of one turn of the loop: ``it["name"]``, ``it.replicated``, ``it.groups``, ``it.seconds``.
 
     Attributes:
-        results: one of each reference, in the order of the collection.
+        results: one of each reference, in the order of the collection. Of a large run that was loaded each is read
+            when it is asked for.
         metric: the paper's measure, which decides which references are compatible.
         groups: references that are not replicated and look alike.
         settings: what the iteration was run with.
@@ -57,7 +57,7 @@ class Iteration:
         predictor: the trained network, None where it was not kept.
     """
 
-    results: tuple[Result, ...]
+    results: Sequence[Result]
     metric: Metric
     groups: tuple[Group, ...]
     settings: Settings
@@ -73,13 +73,13 @@ class Iteration:
     helpers: Mapping[str, bytes] = field(default_factory=dict, repr=False)
 
     @cached_property
-    def _by_name(self) -> dict[str, Result]:
-        return {result.name: result for result in self.results}
+    def _places(self) -> dict[str, int]:
+        return {result.name: place for place, result in enumerate(self.results)}
 
     def __getitem__(self, name: str) -> Result:
-        if name not in self._by_name:
+        if name not in self._places:
             raise KeyError(f"no reference {name!r} in this iteration")
-        return self._by_name[name]
+        return self.results[self._places[name]]
 
     def __iter__(self) -> Iterator[Result]:
         return iter(self.results)
@@ -89,7 +89,7 @@ class Iteration:
 
     @property
     def names(self) -> tuple[str, ...]:
-        return tuple(self._by_name)
+        return tuple(self._places)
 
     @property
     def replicated(self) -> tuple[str, ...]:
@@ -142,10 +142,21 @@ class Iteration:
     def _of_grade(self, *grades: Grade) -> tuple[str, ...]:
         return tuple(result.name for result in self.results if result.grade in grades)
 
-    @cached_property
+    @property
     def record(self) -> dict[str, Any]:
         """Everything but meshes and pictures, as plain values for JSON; NaN becomes null."""
+        head = self.head
+        after = {name: head.pop(name) for name in _AFTER}
+        return {**head, "references": list(self.entries()), **after}
+
+    def entries(self) -> Iterator[dict[str, Any]]:
+        """Those of the references in the record."""
         slugs = file_names(self.names)
+        return (to_record(result, slugs[result.name]) for result in self.results)
+
+    @property
+    def head(self) -> dict[str, Any]:
+        """The record without the references."""
         return {
             "format": FORMAT,
             "created": self.created,
@@ -158,7 +169,6 @@ class Iteration:
             "judge": self.settings.judge,
             "threshold": self.metric.threshold,
             "metric": asdict(self.metric),
-            "references": [to_record(result, slugs[result.name]) for result in self.results],
             "groups": [{"representative": g.representative, "members": list(g.members)} for g in self.groups],
             "worth_marking": list(worth_marking(self)),
             "metrics": dict(self.metrics),
@@ -183,37 +193,56 @@ class Iteration:
         """Read a run back, without the references' meshes. Raises RunError when the folder holds no whole run."""
         folder = Path(folder).expanduser()
         record = read_record(folder)
+        entries = record["references"]
+        is_large = record["format"] == LARGE_FORMAT
         return cls(
-            results=tuple(from_record(entry, read_replica(folder, entry)) for entry in record["references"]),
+            results=_lazy_results(folder, entries) if is_large else tuple(_result(folder, each) for each in entries),
             metric=Metric.of_record(record),
             groups=tuple(Group(g["representative"], tuple(g["members"])) for g in record["groups"]),
             settings=Settings.from_record({**_AS_BEFORE, **record["settings"]}),
             source=text_in(folder).read_text(encoding="utf-8"),
-            pictures={entry["name"]: _read_pictures(folder, entry["slug"]) for entry in record["references"]},
+            pictures=KeptPictures(folder, entries) if is_large else dict(pictures_of(folder, entries)),
             helpers=read_helpers(folder),
             predictor=Predictor.load(folder / "predictor.pt") if (folder / "predictor.pt").exists() else None,
             **{name: record[name] for name in _AS_RECORDED},
         )
 
     def _write(self, folder: Path) -> None:
-        (folder / RECORD).write_text(json.dumps(self.record, indent=1, allow_nan=False), encoding="utf-8")
         write_source(folder, self.procedure.get("path"), self.source, self.helpers)
-        parameters = {result.name: result.parameters for result in self.results}
-        (folder / "parameters.json").write_text(json.dumps(parameters, indent=1), encoding="utf-8")
         self._write_csv(folder / "parameters.csv")
         if self.predictor:
             self.predictor.save(folder / "predictor.pt")
-        (folder / "replicas").mkdir()
-        (folder / "thumbnails").mkdir()
+        if table.is_large(len(self)):
+            self._write_large(folder)
+            return
+        (folder / RECORD).write_text(json.dumps(self.record, indent=1, allow_nan=False), encoding="utf-8")
+        parameters = {result.name: result.parameters for result in self.results}
+        (folder / "parameters.json").write_text(json.dumps(parameters, indent=1), encoding="utf-8")
+        for name in ("replicas", "thumbnails"):
+            (folder / name).mkdir()
+        for path, content in self._files():
+            (folder / path).write_bytes(content)
+
+    def _write_large(self, folder: Path) -> None:
+        """As a table and tars."""
+        record = {**self.head, "format": LARGE_FORMAT}
+        (folder / RECORD).write_text(json.dumps(record, indent=1, allow_nan=False), encoding="utf-8")
+        table.write(folder, self.entries(), self.procedure["parameters"])
+        with packing(folder) as packer:
+            for path, content in self._files():
+                packer.add(path, content)
+
+    def _files(self) -> Iterator[tuple[str, bytes]]:
+        """Replicas and thumbnails, by their path in the run."""
         pictures = self.pictures or draw_pictures(self.results)
         slugs = file_names(self.names)
         for result in self.results:
-            slug = slugs[result.name]
-            if result.replica is not None and (path := replica_path(result.replica, slug)):
-                (folder / path).write_bytes(encode(result.replica, "glb", self._origin(result)))
+            slug, replica = slugs[result.name], result.replica
+            if replica is not None and (path := replica_path(replica, slug)):
+                yield path, encode(replica, "glb", self._origin(result))
             for kind, picture in zip(("reference", "replica"), pictures[result.name], strict=True):
                 if picture is not None:
-                    (folder / "thumbnails" / f"{slug}.{kind}.png").write_bytes(picture)
+                    yield f"thumbnails/{slug}.{kind}.png", picture
 
     def _origin(self, result: Result) -> dict[str, Any]:
         """Where a replica comes from, for the extras of its file."""
@@ -239,20 +268,13 @@ class Iteration:
                 table.writerow([cell(value) if isinstance(value, str) else value for value in row])
 
 
-def draw_pictures(results: Sequence[Result], threads: int | None = None) -> Pictures:
-    """Thumbnails (PNG) of every reference and replica, by name."""
-    drawn = in_threads(_drawn, [result for result in results if result.reference is not None], threads)
-    return dict(zip([result.name for result in results], drawn, strict=True))
+def _result(folder: Path, entry: Mapping[str, Any]) -> Result:
+    return from_record(entry, read_replica(folder, entry))
 
 
-def _drawn(result: Result) -> tuple[bytes, bytes | None]:
-    assert result.reference is not None
-    reference, replica = thumbnail(fresh(result.reference)), result.replica
-    if isinstance(replica, Mesh) and result.places:
-        return reference, seen_from(replica, [np.array(place) for place in result.places])
-    return reference, None if replica is None else thumbnail(replica)
+def _lazy_results(folder: Path, entries: Sequence[Mapping[str, Any]]) -> Sequence[Result]:
+    def result(place: int) -> Result:
+        entry = entries[place]
+        return from_record(entry, later(partial(read_replica, folder, entry)))
 
-
-def _read_pictures(folder: Path, slug: str) -> tuple[bytes, bytes | None]:
-    reference, replica = (folder / "thumbnails" / f"{slug}.{kind}.png" for kind in ("reference", "replica"))
-    return reference.read_bytes(), replica.read_bytes() if replica.exists() else None
+    return Lazy(len(entries), result)

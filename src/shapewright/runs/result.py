@@ -12,6 +12,7 @@ from shapewright.judging.target import Measures
 from shapewright.judging.verdict import Grade, Region
 from shapewright.parameters import Parameters
 from shapewright.references.readers.svg import read_svg
+from shapewright.runs import packed
 from shapewright.runs.lazy import Read
 from shapewright.settings import JudgeName
 from shapewright.shapes import Mesh, Points, ReferenceShape, Shape
@@ -108,6 +109,7 @@ _KEPT = 8  # regions in a record, of either kind: the largest
 
 def to_record(result: Result, slug: str) -> dict[str, Any]:
     """As plain values for JSON; NaN becomes null."""
+    replica = result.replica
     return {
         "name": result.name,
         "slug": slug,
@@ -123,7 +125,7 @@ def to_record(result: Result, slug: str) -> dict[str, Any]:
         "compatible": result.compatible,
         "group": result.group,
         "error": result.error,
-        "replica": replica_path(result.replica, slug),
+        "replica": replica_path(replica, slug),
         "triangles": len(result.reference.faces) if isinstance(result.reference, Mesh) else None,
         "points": len(result.reference) if isinstance(result.reference, Points) else None,
         "notes": list(result.notes),
@@ -171,7 +173,9 @@ def read_replica(run: Path, entry: Mapping[str, Any]) -> Shape | None:
     """The replica of an entry in a run's record, with its labels, if it has one. Raises OSError or ValueError."""
     if not entry["replica"]:
         return None
-    data = (run / entry["replica"]).read_bytes()
+    data = packed.read(run, entry["replica"])
+    if data is None:
+        raise FileNotFoundError(f"{run / entry['replica']}: the run has lost this replica")
     return read_svg(data)[0] if entry["replica"].endswith(".svg") else read_glb(data)
 
 

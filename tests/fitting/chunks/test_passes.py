@@ -28,7 +28,7 @@ def stool(
     return top | box((0.15, height, 0.15), at=(0, height / 2, 0)).array(legs, (0.2, 0, 0))
 """
 SETTINGS = sw.Settings(seed=1, samples=160, epochs=2, image_size=32, workers=2, refine_shapes=40)
-_TIMES = ("seconds", "build_seconds", "created", "first_answer")
+_TIMES = ("seconds", "build_seconds", "created", "first_answer", "notices")
 
 
 @pytest.fixture(scope="module")

@@ -36,7 +36,7 @@ def deciding(
         "procedure": [str(procedure.path), procedure.name, text_digest(procedure)],
         "settings": settings.record(),
         "references": _digest_of(references),
-        "previous": previous and hashlib.sha256(json.dumps(previous.record).encode()).hexdigest(),
+        "previous": previous and _digest_of_run(previous),
         "known": {name: list(some) for name, some in (known or {}).items()},
     }
 
@@ -44,6 +44,13 @@ def deciding(
 def looks(builds: Sequence[Build]) -> list[str]:
     """What some builds are, to the bit: another list means that the procedure builds something else."""
     return [shape_digest(build.shape) if build.shape else str(build.failure) for build in builds]
+
+
+def _digest_of_run(iteration: Iteration) -> str:
+    found = hashlib.sha256(json.dumps(iteration.head).encode())
+    for entry in iteration.entries():
+        found.update(json.dumps([entry["name"], entry["parameters"]]).encode())
+    return found.hexdigest()
 
 
 def _digest_of(references: Collection) -> str:

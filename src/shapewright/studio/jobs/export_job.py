@@ -65,6 +65,7 @@ def _replicas(
     references: by name, to lay the replicas over; None: they stay as the procedure builds them.
     """
     from shapewright.procedures import Facts
+    from shapewright.runs import packed
     from shapewright.runs.result import read_replica
     from shapewright.shapes.files import encode
 
@@ -75,7 +76,7 @@ def _replicas(
         file = run / entry["replica"]
         as_built = references is None or entry["name"] not in references
         if file.suffix != ".glb" or (as_built and format == "glb"):
-            yield file.name, file.read_bytes()
+            yield file.name, packed.read(run, entry["replica"]) or b""
         else:
             extras = {"procedure": record["procedure"]["name"], "reference": entry["name"]}
             extras |= {"parameters": entry["parameters"], **(facts.stated if as_built else {})}
