@@ -422,6 +422,58 @@ def test_a_full_disk_leaves_the_page_as_it_was(tmp_path: Path) -> None:
 def test_what_is_no_run_is_refused(tmp_path: Path) -> None:
     with pytest.raises(RunError, match=r"holds no iteration\.json"):
         write_report(tmp_path)
-    (tmp_path / "iteration.json").write_text('{"format": 2}')
-    with pytest.raises(RunError, match="has format 2; this version of shapewright reads format 1"):
+    (tmp_path / "iteration.json").write_text('{"format": 3}')
+    with pytest.raises(RunError, match="has format 3; this version of shapewright reads formats up to 2"):
         write_report(tmp_path)
+
+
+def many(tmp_path: Path) -> Path:
+    """A run of 1,040 references: three groups of 90 misfits, 70 of no group, 700 that are replicated; by the paper."""
+    names = [f"g{group} {i:03d}" for group in range(3) for i in range(90)]
+    entries = [reference(name, 0.3 + 0.001 * i, group=i // 90) for i, name in enumerate(names)]
+    entries += [reference(f"alone {i:03d}", 0.5) for i in range(70)]
+    entries += [reference(f"good {i:04d}", 0.01 + 0.0001 * i) for i in range(700)]
+    contents = record(entries)
+    members = [names[start : start + 90] for start in (0, 90, 180)]
+    return saved(tmp_path, contents | {"groups": [{"representative": some[1], "members": some} for some in members]})
+
+
+def pages_of(run: Path) -> list[Page]:
+    return [Page(path) for path in sorted((run / "report").iterdir())]
+
+
+def names_on(page: Page) -> list[str]:
+    return [pair["name"] for pair in page.data["pairs"]]
+
+
+def test_many_references_have_pages(tmp_path: Path) -> None:
+    run = many(tmp_path)
+    overview = Page(write_report(run))
+    assert [path.name for path in sorted((run / "report").iterdir())] == [f"000{i}.html" for i in range(1, 7)]
+    pages = pages_of(run)
+    shown = [name for page in pages for name in names_on(page)]
+    known = [one["name"] for one in json.loads((run / "iteration.json").read_text())["references"]]
+    assert sorted(shown) == sorted(known) and shown[0] == "g0 001" and shown[-1] == "good 0699"
+    assert names_on(overview)[:3] == ["g0 001", "g1 001", "g2 001"] and len(names_on(overview)) == 3 + 60 + 60
+    assert "+89 more" in overview.text and ("a", {"class": "more", "href": "report/0001.html"}) in overview.elements
+    assert all("700 of 1040" in page.text for page in (overview, *pages))
+    assert "Settings and versions" in overview.text and "Settings and versions" not in pages[0].text
+
+
+def test_links_between_pages_lead_to_files(tmp_path: Path) -> None:
+    run = many(tmp_path)
+    for path in (write_report(run), *(run / "report").iterdir()):
+        links = [dict(made)["href"] for name, made in Page(path).elements if name == "a"]
+        assert len([link for link in links if str(link).endswith(".html")]) >= 12
+        assert all((path.parent / str(link)).resolve().is_file() for link in links)
+
+
+def test_pages_that_are_not_needed_any_more_go(tmp_path: Path) -> None:
+    run = many(tmp_path)
+    write_report(run)
+    contents = json.loads((run / "iteration.json").read_text())
+    contents |= {"references": contents["references"][:60], "groups": []}
+    (run / "iteration.json").write_text(json.dumps(contents))
+    overview = Page(write_report(run))
+    assert not list((run / "report").iterdir()) and "Overview" not in overview.text
+    assert len(names_on(overview)) == 60

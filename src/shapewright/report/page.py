@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import io
-import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
-from PIL import Image
 
 from shapewright.judging.paper import Metric
 from shapewright.judging.target import Measures
+from shapewright.judging.verdict import Grade
 from shapewright.report.axes_sheet import SHEET, draw_sheet
+from shapewright.report.division import FOLDER, Page, divided
 from shapewright.report.explained import boxes, embedded, outlines, quiet, read_explanation, told_cause
+from shapewright.report.figures import cameras, curves, frame
 from shapewright.report.scale import GRADES, Scale
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import read_record
+from shapewright.runs.packed import is_packed, read
 from shapewright.runs.result import grade_in
 from shapewright.storage import write_file
 
@@ -28,7 +31,8 @@ def write_report(folder: str | Path, previous: str | Path | None = None, explana
     """Write ``folder/report.html`` from ``folder/iteration.json`` and ``folder/thumbnails``; return its path.
 
     The page holds its pictures, so that one can move or send the file; only its links to replicas (GLB) point into the
-    folder. A missing thumbnail stays blank. Raises RunError for a folder without a record, or with one of another
+    folder. Of more than 1,000 references the first page shows one of each group, and pages in ``folder/report`` show
+    all. A missing thumbnail stays blank. Raises RunError for a folder without a record, or with one of another
     format.
 
     Args:
@@ -48,69 +52,122 @@ def write_report(folder: str | Path, previous: str | Path | None = None, explana
         lstrip_blocks=True,
     )
     environment.filters |= {"number": _number, "duration": _duration, "value": _value}
-    page = environment.get_template("report.html.jinja").render(
-        run=folder.resolve().name,
-        before=previous.resolve().name if previous else None,
-        comparison=compare(earlier, record) if earlier else None,
-        previous=earlier,
-        **_contents(record, folder, read_explanation(explanation or folder)),
-    )
+    template = environment.get_template("report.html.jinja")
+    told = read_explanation(explanation or folder)
+    shared = {
+        "run": folder.resolve().name,
+        "before": previous.resolve().name if previous else None,
+        "comparison": compare(earlier, record) if earlier else None,
+        "previous": earlier,
+    }
+    references = {reference["name"]: reference for reference in record["references"]}
+    whole = _Whole.of(record, references)
+    pages = divided(whole.groups, whole.ungrouped, whole.replicated, record.get("worth_marking", []))
     if record["collection"].get("axes"):
         sheet = io.BytesIO()
         draw_sheet(folder, record["references"], record["collection"]["axes"]).save(sheet, "PNG")
         write_file(folder / SHEET, sheet.getvalue())
-    path = folder / "report.html"
-    write_file(path, page)
-    return path
+    for page in reversed(pages):
+        (folder / page.file).parent.mkdir(exist_ok=True)
+        contents = _contents(record, folder, told if page.number == 0 else told and _of_references(told), whole, page)
+        write_file(folder / page.file, template.render(**shared, **contents, **_linked(pages, page)))
+    for left in (folder / FOLDER).glob("*.html"):
+        if int(left.stem) >= len(pages):
+            left.unlink()
+    return folder / pages[0].file
 
 
-def _contents(record: dict[str, Any], folder: Path, explanation: dict[str, Any] | None) -> dict[str, Any]:
+@dataclass(frozen=True)
+class _Whole:
+    """What the first page says of all references."""
+
+    scale: Scale
+    references: Mapping[str, dict[str, Any]]
+    groups: Sequence[Sequence[str]]  # members, the representative first
+    ungrouped: Sequence[str]
+    replicated: Sequence[str]
+    grades: Mapping[str, Grade]
+
+    @classmethod
+    def of(cls, record: Mapping[str, Any], references: Mapping[str, dict[str, Any]]) -> _Whole:
+        scale = Scale.of(record)
+
+        def ordered(names: Iterable[str]) -> list[str]:
+            return scale.ordered([references[name] for name in names])
+
+        groups = [
+            [group["representative"], *ordered(name for name in group["members"] if name != group["representative"])]
+            for group in record["groups"]
+        ]
+        grouped = {name for group in groups for name in group}
+        grades = {name: grade_in(reference) for name, reference in references.items()}
+        replicated = ordered(name for name in references if grades[name] == "replicated")
+        ungrouped = ordered(name for name in references if name not in grouped and grades[name] != "replicated")
+        return cls(scale, references, groups, ungrouped, replicated, grades)
+
+
+def _of_references(told: dict[str, Any]) -> dict[str, Any]:
+    """Of an explanation what pages but the first show."""
+    return {"references": told["references"], "suggestions": [], "tried": [], "sought": None, "summary": []}
+
+
+def _linked(pages: Sequence[Page], page: Page) -> dict[str, Any]:
+    """The links of a page to all others."""
+    up = "../" if page.number else ""
+    at = {name: f"{up}{each.file}" for each in pages[1:] for group in each.groups for name in group}
+    return {
+        "pages": [{"number": each.number, "file": f"{up}{each.file}"} for each in pages] if len(pages) > 1 else [],
+        "page": page.number,
+        "page_of": at,
+        "up": up,
+    }
+
+
+def _contents(
+    record: dict[str, Any], folder: Path, explanation: dict[str, Any] | None, whole: _Whole, page: Page
+) -> dict[str, Any]:
     """What the template shows. A pair is known by its index in the order of the page."""
-    scale, metric = Scale.of(record), Metric.of_record(record)
-    references = {reference["name"]: reference for reference in record["references"]}
-
-    def ordered(names: Iterable[str]) -> list[str]:
-        return scale.ordered([references[name] for name in names])
-
-    groups = [
-        [group["representative"], *ordered(name for name in group["members"] if name != group["representative"])]
-        for group in record["groups"]
-    ]
-    grouped = {name for group in groups for name in group}
-    grades = {name: grade_in(reference) for name, reference in references.items()}
-    replicated = ordered(name for name in references if grades[name] == "replicated")
-    ungrouped = ordered(name for name in references if name not in grouped and grades[name] != "replicated")
-    order = [*(name for group in groups for name in group), *ungrouped, *replicated]
-    index = {name: i for i, name in enumerate(order)}
+    scale, metric, references = whole.scale, Metric.of_record(record), whole.references
+    index = {name: i for i, name in enumerate(page.names)}
     told = explanation["references"] if explanation else {}
     parameters = record["procedure"]["parameters"]
-    pairs = [_pair(references[name], folder, scale, parameters, told.get(name)) for name in order]
+    pairs = [_pair(references[name], folder, scale, parameters, told.get(name)) for name in page.names]
     criterion = metric.criterion if "metric" in record else f"distance at most {_value(record['threshold'])}"
+    grades = whole.grades.values()
     return {
         "record": record,
         "created": _date(record["created"]),
         "pairs": pairs,
         "explanation": explanation,
         "index": index,
-        "groups": [[index[name] for name in group] for group in groups],
-        "ungrouped": [index[name] for name in ungrouped],
-        "no_replica": all(scale.value(references[name]) is None for name in ungrouped),
-        "replicated": [index[name] for name in replicated],
-        "counts": {grade: sum(of == grade for of in grades.values()) for grade in GRADES},
+        "groups": [[index[name] for name in group] for group in page.groups],
+        "ungrouped": [index[name] for name in page.ungrouped],
+        "no_replica": all(scale.value(references[name]) is None for name in whole.ungrouped),
+        "replicated": [index[name] for name in page.replicated],
+        "total": len(references),
+        "of_all": {
+            "groups": len(whole.groups),
+            "misfits": len(references) - len(whole.replicated) - len(whole.ungrouped),
+            "ungrouped": len(whole.ungrouped),
+            "replicated": len(whole.replicated),
+            "sizes": {group[0]: len(group) for group in whole.groups},
+            "noted": [reference for reference in references.values() if reference.get("notes")],
+        },
+        "counts": {grade: sum(of == grade for of in grades) for grade in GRADES},
         "compatible": sum(reference["compatible"] for reference in references.values()),
-        "strip": [index[name] for name in ordered(references)],
+        "strip": [index[name] for name in scale.ordered([references[name] for name in page.names])],
         "scale": scale,
         "asked": [index[name] for name in record.get("worth_marking", []) if name in index],
         "papers": criterion,
         "criterion": criterion if scale.judge == "paper" else f"fidelity at least {_value(scale.cuts['replicated'])}",
-        "measures": _measures(pairs),
-        "frame": _frame([picture for pair in pairs for picture in pair["pictures"]]),
+        "measures": _measures(list(references.values()), whole.grades),
+        "frame": frame([picture for pair in pairs for picture in pair["pictures"]]),
         "at_limit": {
             parameter["name"]: sum(parameter["name"] in reference["at_limit"] for reference in references.values())
             for parameter in parameters
         },
-        "curves": _curves(record["metrics"]["curve"]),
-        "cameras": _cameras(record["metrics"].get("cameras")),
+        "curves": curves(record["metrics"]["curve"]),
+        "cameras": cameras(record["metrics"].get("cameras")),
         "data": {"parameters": [_parameter(p) for p in parameters], "pairs": _details(pairs)},
     }
 
@@ -122,8 +179,8 @@ def _pair(
     parameters: list[dict[str, Any]],
     told: dict[str, Any] | None,
 ) -> dict[str, Any]:
-    files = [folder / "thumbnails" / f"{reference['slug']}.{kind}.png" for kind in ("reference", "replica")]
-    pictures = [file.read_bytes() if file.is_file() else None for file in files]
+    names = [f"thumbnails/{reference['slug']}.{kind}.png" for kind in ("reference", "replica")]
+    pictures = [read(folder, name) for name in names]
     causes, grade = told["causes"] if told else [], grade_in(reference)
     regions = outlines(told) if told else boxes(reference)
     return {
@@ -145,18 +202,21 @@ def _pair(
         "tint": scale.tint(reference),
         "pictures": pictures,
         "sources": [picture and embedded(picture) for picture in pictures],
-        "link": reference["replica"] and quote(reference["replica"]),
+        "link": (replica := reference["replica"]) and (None if is_packed(folder, replica) else quote(replica)),
         "values": [_shown(p, reference) for p in parameters],
     }
 
 
-def _measures(pairs: list[dict[str, Any]]) -> list[tuple[str, float, float | None]]:
+def _measures(
+    references: Sequence[Mapping[str, Any]], grades: Mapping[str, Grade]
+) -> list[tuple[str, float, float | None]]:
     """What each measure is, its mean over all references with a replica and over the replicated; not unknown ones."""
     rows = []
+    replicated = [reference for reference in references if grades[reference["name"]] == "replicated"]
     for name, words in Measures.words().items():
-        every = _mean([pair.get(name) for pair in pairs])
+        every = _mean([reference.get(name) for reference in references])
         if every is not None:
-            rows.append((words, every, _mean([pair.get(name) for pair in pairs if pair["grade"] == "replicated"])))
+            rows.append((words, every, _mean([reference.get(name) for reference in replicated])))
     return rows
 
 
@@ -203,63 +263,9 @@ def _place(parameter: dict[str, Any], value: Any) -> float | None:
     return round(min(max((value - parameter["low"]) / span, 0.0), 1.0), 3) if span else 0.5
 
 
-def _frame(pictures: list[bytes | None]) -> dict[str, float]:
-    """The part of the thumbnails that any shape covers, as a box of fractions; pages show no more than that."""
-    boxes = []
-    for picture in pictures:
-        if picture:
-            image = Image.open(io.BytesIO(picture))
-            box = image.getchannel("A").getbbox() if "A" in image.getbands() else None
-            boxes.append([edge / image.width for edge in box or (0, 0, image.width, image.height)])
-    if not boxes:
-        return {"left": 0.0, "top": 0.0, "width": 1.0, "height": 1.0}
-    margin = 0.03
-    left, top = (max(0.0, min(box[i] for box in boxes) - margin) for i in (0, 1))
-    right, bottom = (min(1.0, max(box[i] for box in boxes) + margin) for i in (2, 3))
-    return {"left": left, "top": top, "width": right - left, "height": bottom - top}
-
-
-def _curves(curve: list[dict[str, Any]]) -> dict[str, Any] | None:
-    """Training and validation loss as paths in a box of 100 x 100, 0 at the bottom."""
-    lines = {
-        key: [(row["epoch"], row[key]) for row in curve if row.get(key) is not None] for key in ("train", "validation")
-    }
-    points = [point for line in lines.values() for point in line]
-    if len({epoch for epoch, _ in points}) < 2:
-        return None
-    (first, last), highest = (min(points)[0], max(points)[0]), max(loss for _, loss in points) or 1.0
-    paths = {
-        key: "M" + "L".join(f"{(e - first) / (last - first) * 100:.2f} {100 - y / highest * 100:.2f}" for e, y in line)
-        for key, line in lines.items()
-        if line
-    }
-    return {
-        "paths": paths,
-        "ends": {key: line[-1][1] for key, line in lines.items() if line},
-        "first": first,
-        "last": last,
-        "highest": highest,
-    }
-
-
 def _mean(numbers: list[float | None]) -> float | None:
     known = [number for number in numbers if number is not None]
     return sum(known) / len(known) if known else None
-
-
-def _cameras(places: dict[str, Any] | None) -> list[dict[str, Any]]:
-    """Where each camera stood before and after training: as seen from above, the front at the bottom, and in words."""
-    if not places or "after" not in places:
-        return []
-
-    def above(place: list[float]) -> tuple[float, float]:
-        azimuth, elevation, distance = math.radians(place[0]), math.radians(place[1]), place[2]
-        return distance * math.cos(elevation) * math.sin(azimuth), distance * math.cos(elevation) * math.cos(azimuth)
-
-    return [
-        {"from": above(before), "to": above(after), "before": before, "after": after, "moved": before != after}
-        for before, after in zip(places["before"], places["after"], strict=True)
-    ]
 
 
 def _date(text: str) -> str:

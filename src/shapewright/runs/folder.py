@@ -127,7 +127,7 @@ def read_record(folder: Path) -> dict[str, Any]:
             record["references"] = table.entries(folder, record["procedure"]["parameters"])
         except ImportError as error:
             raise RunError(f"{folder}: a large run; it needs pyarrow: pip install 'shapewright[scale]'") from error
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, KeyError) as error:
             raise RunError(f"{folder / table.TABLE}: cannot be read: {error}") from error
     elif record.get("format") != FORMAT:
         found = record.get("format")

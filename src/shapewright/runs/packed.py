@@ -82,6 +82,11 @@ def find(run: Path, path: str) -> Path | Packed | None:
         return None
 
 
+def is_packed(run: Path, path: str) -> bool:
+    """Whether a file of a run is in a tar."""
+    return isinstance(find(run, path), Packed)
+
+
 def read(run: Path, path: str) -> bytes | None:
     """What a file of a run holds, packed or not; None where there is none. Raises OSError."""
     found = find(run, path)
