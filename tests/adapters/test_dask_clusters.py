@@ -1,4 +1,4 @@
-"""A real dask cluster, a scheduler and two workers as processes: samples through it are those of this machine."""
+"""A real dask cluster, a scheduler and two workers as processes: what goes through it is what this machine finds."""
 
 import os
 import signal
@@ -12,7 +12,10 @@ import pytest
 import shapewright as sw
 from shapewright.building import ExecutorError, Workers
 from shapewright.building.clusters import ClusterName, opened
+from shapewright.feedback.explanation import explain
+from shapewright.feedback.record import record_of
 from shapewright.fitting.samples import write_samples
+from shapewright.modelling.solids import box
 from shapewright.runs.folder import RunError
 
 distributed = pytest.importorskip("distributed", reason="needs the extra dask; run `make test-adapters`")
@@ -31,8 +34,9 @@ def plank(height: Annotated[float, Range(0.3, 0.8)] = 0.5, legs: Annotated[int, 
         raise Infeasible("it falls over")
     if legs == 5 and 0.5 < height < DEADLY:
         os._exit(3)
-    return box((1, height, 1))
+    return box((1, height, 1)) if legs == 1 else box((1, 0.1, 1), at=(0, height, 0)) | box((0.2, height, 0.2))
 """
+SETTINGS = sw.Settings(seed=1, samples=60, epochs=1, image_size=32, workers=2, refine_shapes=40)
 
 
 class Processes:
@@ -169,3 +173,65 @@ def test_the_command_line_builds_on_a_cluster_and_on_one_of_this_machine(cluster
         assert not [line for line in run.stderr.splitlines() if "distributed" in line]
     assert shapewright("sample", "plank.py", "-n", 60, "--out", "near", cwd=tmp_path).returncode == 0
     assert contents(tmp_path / "far") == contents(tmp_path / "near") == contents(tmp_path / "local")
+
+
+@pytest.fixture
+def references(plank):
+    made = {f"{legs} of {height}": plank(height=height, legs=legs) for legs in (1, 3) for height in (0.35, 0.75)}
+    return sw.Collection.of({**made, "bar": box((1, 0.1, 0.1)), "post": box((0.1, 1, 0.1))})
+
+
+def found(iteration):
+    return [(r.parameters, r.grade, r.group, r.measured, r.replica.vertices.tobytes()) for r in iteration]
+
+
+def said(explanation):
+    return {key: value for key, value in record_of(explanation).items() if key != "seconds"}
+
+
+def test_a_fit_and_its_explanation_are_those_of_this_machine_although_a_worker_is_killed(
+    cluster, plank, references, monkeypatch
+):
+    monkeypatch.setattr("shapewright.feedback.causes.better_replicas.EVALUATIONS", 200)
+
+    def kill(event):
+        if event.stage == "refine" and event.done and cluster.workers[0].poll() is None:
+            os.kill(cluster.workers[0].pid, signal.SIGKILL)
+            cluster.workers[0].wait()
+
+    near = sw.fit(plank, references, SETTINGS)
+    with cluster.client() as client:
+        executor = client.get_executor(pure=False)
+        far = sw.fit(plank, references, SETTINGS, progress=kill, executor=executor)
+        why = explain(near, plank, references, suggest=False, executor=executor)
+    assert cluster.workers[0].poll() == -signal.SIGKILL
+    assert found(far) == found(near) and far.groups == near.groups
+    assert said(why) == said(explain(near, plank, references, suggest=False))
+
+
+def test_a_fit_whose_scheduler_is_killed_says_what_to_do(cluster, plank, references):
+    def kill(event):
+        if event.stage == "describe" and cluster.scheduler.poll() is None:
+            os.kill(cluster.scheduler.pid, signal.SIGKILL)
+            cluster.scheduler.wait()
+
+    with distributed.Client(cluster.address, timeout=3) as client:
+        client.wait_for_workers(2, timeout=60)
+        with pytest.raises(ExecutorError, match=r"see that the cluster runs, .* then repeat the command"):
+            sw.fit(plank, references, SETTINGS, progress=kill, executor=client.get_executor(pure=False))
+
+
+def test_the_command_line_fits_evaluates_and_explains_on_a_cluster(cluster, plank, references, tmp_path):
+    for reference in references:
+        reference.shape.save(tmp_path / "refs" / f"{reference.name}.obj")
+    name = f"dask:{cluster.address}"
+    few = ("--samples", 60, "--epochs", 1, "--refine", "off", "--workers", 2)
+    for out, more in (("far", ["--cluster", name]), ("near", [])):
+        run = shapewright("fit", "plank.py", "refs", "--out", out, *few, *more, cwd=tmp_path)
+        assert run.returncode == 0, run.stderr
+    runs = [sw.Iteration.load(tmp_path / out) for out in ("far", "near")]
+    assert found(runs[0]) == found(runs[1])
+    measured = shapewright("evaluate", "plank.py", *few, "--refined", 2, "--cluster", name, cwd=tmp_path)
+    assert measured.returncode == 0, measured.stderr
+    told = shapewright("explain", "far", "--no-suggestions", "--cluster", name, cwd=tmp_path)
+    assert told.returncode == 0, told.stderr

@@ -63,3 +63,23 @@ def test_one_shape_and_none():
     between, _ = measured(np.zeros((1, 2)))
     assert group_by_leaders([], between) == ()
     assert group_by_leaders(["a"], between)[0].members == ("a",)
+
+
+def test_many_shapes_are_grouped_without_the_distances_of_all_pairs():
+    points = clouds(2, size=250)
+    between, taken = measured(points)
+    names = [f"{i:04d}" for i in range(len(points))]
+    few = group_by_leaders(names, between, 0.3, absolute=True, most=12, many=200)
+    assert sum(taken) < 0.06 * len(points) ** 2
+    assert as_sets(few) == as_sets(group_by_leaders(names, between, 0.3, absolute=True, most=12))
+    assert few == group_by_leaders(names, between, 0.3, absolute=True, most=12, many=200)
+
+
+def test_what_joins_no_group_of_the_first_is_grouped_as_well():
+    points = np.concatenate([clouds(4, size=100), [[5.0, 5.0], [5.01, 5.0], [9.0, 9.0]]])
+    between, _ = measured(points)
+    names = [f"{i:03d}" for i in range(len(points))]
+    groups = group_by_leaders(names, between, 0.3, absolute=True, most=12, many=60)
+    assert sorted(name for each in groups for name in each.members) == names
+    assert {"800", "801"} in as_sets(groups) and {"802"} in as_sets(groups)
+    assert max(len(each) for each in groups) == 100

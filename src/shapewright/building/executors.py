@@ -75,6 +75,7 @@ class Elsewhere:
 
     def __init__(self, executor: Executor, sent: Sent, limits: Limits, shown: bool = False) -> None:
         self._executor = executor.executor if isinstance(executor, Cluster) else executor
+        self._ahead = min(_AHEAD, executor.count) if isinstance(executor, Cluster) and self.is_queue else _AHEAD
         self._order = Order(sent, limits, shown)
 
     @property
@@ -135,8 +136,8 @@ class Elsewhere:
         waiting: deque[tuple[Callable[[], Pending], Pending]] = deque()
         try:
             while True:
-                if len(waiting) <= _AHEAD // 2:
-                    some = islice(chunks, _AHEAD - len(waiting))
+                if len(waiting) <= self._ahead // 2:
+                    some = islice(chunks, self._ahead - len(waiting))
                     waiting += self._submitted([partial(self._submit, task, chunk, fresh) for chunk in some])
                 if not waiting:
                     return

@@ -144,6 +144,8 @@ def iteration_record(iteration: Iteration, folder: Path) -> dict[str, Any]:
 
 def print_explanation(record: Mapping[str, Any], folder: Path) -> None:
     """What the misfits have in common, and what to write next."""
+    if record.get("sample"):
+        out.print(f"{escape(record['sample']['text'])}\n", highlight=False, soft_wrap=True)
     if not record["summary"]:
         out.print("every reference that has a replica is replicated")
     for shared in record["summary"]:

@@ -70,7 +70,8 @@ ClusterOption = Annotated[
         "--cluster",
         parser=parsed(ClusterName.parse),
         metavar="CLUSTER",
-        help="Build on other machines: dask:ADDRESS of a scheduler, or dask:local:N for N processes of this one.",
+        help="Build, search and judge on other machines: dask:ADDRESS of a scheduler, slurm:partition=P,array=N for N "
+        "jobs at a time; dask:local:N and slurm:local:N for N processes of this one.",
     ),
 ]
 Up = Annotated[

@@ -12,6 +12,7 @@ from shapewright.feedback.causes.causes import causes
 from shapewright.feedback.causes.drawn_cases import drawn_causes, in_place
 from shapewright.feedback.causes.failures import failures
 from shapewright.feedback.causes.shared import SharedCause, shared_causes
+from shapewright.feedback.sample import MOST, sample_of
 from shapewright.feedback.suggestions import Suggestion, no_suggestions, suggestions
 from shapewright.feedback.surfaces.areas import areas
 from shapewright.feedback.surfaces.residuals import Residuals, residuals
@@ -55,6 +56,7 @@ class Explanation:
     source: str = ""  # text of the procedure that is explained
     unsuggested: str | None = None  # why no changes of the procedure are suggested, where they are not sought
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
+    sample: tuple[int, int] | None = None  # references that were looked at, of how many; None where all were
 
 
 def explain(
@@ -67,8 +69,11 @@ def explain(
     workers: int | None = None,
     rules: Sequence[Rule] | None = None,
     executor: Executor | None = None,
+    most: int = MOST,
 ) -> Explanation:
     """Explain every reference of an iteration that has a replica, and that follows no other one.
+
+    Of more than ``most`` references a sample is explained: members of each group, and some replicated ones.
 
     Args:
         iteration: what ``fit`` returned, or ``Iteration.load``.
@@ -93,7 +98,9 @@ def explain(
         raise RunError(_IN_VIEWS)
     check_explainable(references)
     settings = replace(iteration.settings, workers=workers or iteration.settings.workers)
-    iteration = iteration.fitted
+    fitted = iteration.fitted
+    iteration = sample_of(fitted, most, settings.seed)
+    sample = (len(iteration), len(fitted)) if len(iteration) < len(fitted) else None
     references = prepared(for_procedure(references, procedure), settings, settings.workers)
     collection = _collection(references, iteration)
     check_explainable(collection)
@@ -106,7 +113,8 @@ def explain(
             built = _built(iteration, crew)
             drawings = _drawings(iteration, built, crew, in_place(judge), stages)
             stages.end()
-            return _explanation(procedure, drawings, (), _failed(iteration, built), stages)
+            explanation = _explanation(procedure, drawings, (), _failed(iteration, built), stages)
+            return replace(explanation, sample=sample)
         stages.begin("differences", 3)
         built = _built(iteration, crew)
         cases = _cases(iteration, built, judge, crew)
@@ -117,7 +125,7 @@ def explain(
         changes, tried = suggestions(procedure, unsolved, crew, judge, stages, rules=rules) if suggest else ((), ())
         stages.end()
     explanation = _explanation(procedure, cases, changes, _failed(iteration, built), stages)
-    return replace(explanation, tried=tried, unsuggested=why_not)
+    return replace(explanation, tried=tried, unsuggested=why_not, sample=sample)
 
 
 def check_explainable(references: Collection) -> None:

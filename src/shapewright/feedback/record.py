@@ -34,9 +34,18 @@ def record_of(explanation: Explanation) -> dict[str, Any]:
         "summary": [_shared(cause) for cause in explanation.summary],
         "suggestions": [_suggestion(suggestion, explanation.source) for suggestion in explanation.suggestions],
         "unsuggested": explanation.unsuggested,
+        **({"sample": sample_record(*explanation.sample)} if explanation.sample else {}),
         "tried": [_tried(tried) for tried in explanation.tried],
         "seconds": {stage: round(seconds, 2) for stage, seconds in explanation.seconds.items()},
     }
+
+
+def sample_record(explained: int, references: int) -> dict[str, Any]:
+    """That some references stand for all."""
+    words = (
+        f"Explained on a sample: {explained:,} of {references:,} references, some of each group. Counts are of these."
+    )
+    return {"explained": explained, "of": references, "text": words}
 
 
 def write_into(folder: Path, record: Mapping[str, Any]) -> dict[str, Any]:

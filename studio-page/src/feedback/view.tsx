@@ -42,6 +42,7 @@ export function FeedbackView() {
                 </h2>
                 <Explain again />
               </header>
+              {found.sample && <p class="soft">{found.sample.text}</p>}
               {found.suggestions.length === 0 && (
                 <p class="soft">
                   {found.unsuggested ??

@@ -122,6 +122,14 @@ class Tried(TypedDict):
     seconds: float
 
 
+class ExplainedSample(TypedDict):
+    """References that stand for all."""
+
+    explained: int
+    of: int
+    text: str
+
+
 class Explanation(TypedDict):
     """The explanation of the run that is shown."""
 
@@ -129,6 +137,7 @@ class Explanation(TypedDict):
     summary: list[SharedCause]
     suggestions: list[Suggestion]
     unsuggested: NotRequired[str | None]  # why none are sought
+    sample: NotRequired[ExplainedSample]  # where only some were looked at
     tried: NotRequired[list[Tried]]
     seconds: NotRequired[dict[str, float]]  # by stage
 

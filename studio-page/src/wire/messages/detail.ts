@@ -117,6 +117,13 @@ export interface Tried {
   seconds: number;
 }
 
+/** References that stand for all. */
+export interface ExplainedSample {
+  explained: number;
+  of: number;
+  text: string;
+}
+
 /** The explanation of the run that is shown. */
 export interface Explanation {
   references: Record<Slug, ReferenceExplanation>;
@@ -124,6 +131,8 @@ export interface Explanation {
   suggestions: Suggestion[];
   /** why none are sought. */
   unsuggested?: string | null;
+  /** where only some were looked at. */
+  sample?: ExplainedSample;
   tried?: Tried[];
   /** by stage. */
   seconds?: Record<string, number>;
