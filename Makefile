@@ -25,7 +25,7 @@ test: .venv/installed $(PAGE)
 
 # The tests that need the libraries of extras. Their environment sees all that .venv holds and adds only these libraries:
 # the extras of shapewright, and what only tests need.
-EXTRAS := cadquery,build123d,openscad,points,scene-synthesizer,usd,cad,dask,slurm,scale
+EXTRAS := cadquery,build123d,openscad,points,scene-synthesizer,usd,cad,dask,slurm,remote,scale
 ONLY_TESTED := pycollada ufbx meshio pyvista vedo jsonschema duckdb polars
 ADAPTERS := .venv-adapters/bin/python
 

@@ -17,6 +17,7 @@ from shapewright.feedback.record import record_of
 from shapewright.fitting.samples import write_samples
 from shapewright.modelling.solids import box
 from shapewright.runs.folder import RunError
+from shapewright.shapes.files import obj
 
 distributed = pytest.importorskip("distributed", reason="needs the extra dask; run `make test-adapters`")
 
@@ -222,8 +223,9 @@ def test_a_fit_whose_scheduler_is_killed_says_what_to_do(cluster, plank, referen
 
 
 def test_the_command_line_fits_evaluates_and_explains_on_a_cluster(cluster, plank, references, tmp_path):
+    (tmp_path / "refs").mkdir()
     for reference in references:
-        reference.shape.save(tmp_path / "refs" / f"{reference.name}.obj")
+        (tmp_path / "refs" / f"{reference.name}.obj").write_bytes(obj(reference.shape))
     name = f"dask:{cluster.address}"
     few = ("--samples", 60, "--epochs", 1, "--refine", "off", "--workers", 2)
     for out, more in (("far", ["--cluster", name]), ("near", [])):

@@ -21,9 +21,7 @@ def iteration(count, sizes, good):
         SimpleNamespace(name=name, grade="replicated" if i >= count - good else "different", follows=None)
         for i, name in enumerate(names)
     )
-    return sw.Iteration(
-        results, light_field_metric(0.18), tuple(groups), sw.Settings(), {}, {}, "", {}, {}, {}, ""
-    )
+    return sw.Iteration(results, light_field_metric(0.18), tuple(groups), sw.Settings(), {}, {}, "", {}, {}, {}, "")
 
 
 def test_a_small_iteration_is_explained_whole():

@@ -10,7 +10,7 @@ import pytest
 import boxes
 from shapewright.processes import Limits
 from shapewright.references import Collection, CollectionError, archives
-from shapewright.references.archives import _cache, is_archive, stem, unpacked
+from shapewright.references.archives import cache_of, is_archive, stem, unpacked
 from shapewright.references.errors import UnreadableError
 from shapewright.references.sources import find
 
@@ -18,9 +18,9 @@ from shapewright.references.sources import find
 @pytest.fixture(autouse=True)
 def cache(tmp_path, monkeypatch):
     monkeypatch.setenv("SHAPEWRIGHT_CACHE", str(tmp_path / "cache"))
-    _cache.cache_clear()
+    cache_of.cache_clear()
     yield tmp_path / "cache"
-    _cache.cache_clear()
+    cache_of.cache_clear()
 
 
 BOX = boxes.obj().encode()

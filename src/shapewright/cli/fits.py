@@ -57,7 +57,9 @@ _SIDES = 4  # that look like the front of a shape that has none
 )
 def fit(
     procedure: ProcedureArgument,
-    references: Annotated[str, typer.Argument(help="A folder, a glob in quotes, a CSV manifest, or a file.")],
+    references: Annotated[
+        str, typer.Argument(help="A folder, a glob in quotes, a CSV manifest, a file, a URL, or @list.txt.")
+    ],
     chosen: Mapping[str, Any],
     out_dir: Annotated[
         Path | None, typer.Option("--out", help="Folder of this run.  [dim]default: the next free runs/NNN[/]")

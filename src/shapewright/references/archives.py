@@ -26,9 +26,9 @@ from shapewright.references.readers.formats import EXTENSIONS
 from shapewright.storage import cache_folder, whole_folder
 
 _NAMES = (".zip", ".tar", ".tar.gz", ".tgz", ".tar.bz2", ".tbz2", ".tar.xz", ".txz")
-_BESIDE = (".bin",)  # buffers of glTF
+BESIDE = (".bin",)  # buffers of glTF
 _FOLDER = "archives"  # in the cache
-_GROWTH, _SMALL, _MOST = 100, 64 * 2**20, 4 * 2**30
+_GROWTH, _SMALL, MOST = 100, 64 * 2**20, 4 * 2**30
 """An archive may unpack to this many times its size; one that stays small, to 64 MiB; none to more than 4 GiB. Meshes
 in text shrink to a tenth at most; a bomb grows a thousand times (measured on zeros)."""
 _MEMBERS = 100_000
@@ -62,14 +62,14 @@ def unpacked(path: Path) -> Path:
     Raises UnreadableError for an archive that is broken, encrypted, hostile or too large, and where there is no room.
     """
     try:
-        state = path.stat()
+        state, kept = path.stat(), cache_of(_FOLDER)
         where, now = (_digest(path.resolve()), _digest((state.st_mtime_ns, state.st_size)))
-        folder = _cache() / f"{where}-{now}"
+        folder = kept / f"{where}-{now}"
         if not folder.is_dir():
-            for older in _cache().glob(f"{where}-*"):
+            for older in kept.glob(f"{where}-*"):
                 shutil.rmtree(older, ignore_errors=True)
             with whole_folder(folder) as growing:
-                _fill(_Job(path, growing, min(_MOST, max(_SMALL, _GROWTH * state.st_size))), state.st_size)
+                _fill(_Job(path, growing, min(MOST, max(_SMALL, _GROWTH * state.st_size))), state.st_size)
     except OSError as error:
         if not folder.is_dir():  # else another process was faster
             raise UnreadableError(f"an archive that cannot be unpacked: {error.strerror or error}") from error
@@ -110,11 +110,12 @@ def _digest(value: object) -> str:
 
 
 @cache
-def _cache() -> Path:
+def cache_of(name: str) -> Path:
+    """A folder of this name in the user's cache; where that cannot be written, one that ends with the process."""
     kept = cache_folder()
     if kept:
-        (kept / _FOLDER).mkdir(exist_ok=True)
-        return kept / _FOLDER
+        (kept / name).mkdir(exist_ok=True)
+        return kept / name
     folder = tempfile.mkdtemp(prefix="shapewright-")
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return Path(folder)
@@ -131,7 +132,7 @@ def _unpack(path: Path, folder: Path, most: int) -> None:
             raise UnreadableError(f"an archive with a path that leads out of it: {name!r}")
         if number >= _MEMBERS:
             raise UnreadableError(f"an archive of more than {_MEMBERS} files; unpack it and give what you need")
-        is_read = inside.suffix.lower() in (*EXTENSIONS, *_BESIDE)
+        is_read = inside.suffix.lower() in (*EXTENSIONS, *BESIDE)
         if not zipped or is_read:
             written += size  # a packed tar is unpacked as a whole
         if written > most:

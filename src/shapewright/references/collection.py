@@ -14,6 +14,7 @@ from typing import Any
 from shapewright.references import sources
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.orientation import AxesBy, Orientation
+from shapewright.references.origins.lists import lasting
 from shapewright.references.readers import formats as files
 from shapewright.references.readers.pictures import KINDS as PICTURES
 from shapewright.references.reading import Readers
@@ -86,6 +87,8 @@ class Collection:
     ) -> Collection:
         """Read a collection from a folder, an archive, a glob pattern, a CSV manifest, a file, or a list of these.
 
+        Each may be an address as well, ``s3://bucket/chairs`` or ``https://host/chairs.zip``; ``@list.txt`` lists some.
+
         It reads meshes in OBJ, PLY, STL, OFF, GLB, glTF, 3MF, DAE, FBX, USD, STEP and IGES, and drawings in SVG, DXF
         and pictures.
         ``sources.find`` says which files a source stands for and how they are named. A file that cannot be read is
@@ -135,7 +138,7 @@ class Collection:
         if not references:
             raise CollectionError(_nothing_readable(skipped))
         more = f" and {len(origins) - 1} more" if len(origins) > 1 else ""
-        again = tuple(str(Path(origin).expanduser().absolute()) for origin in origins)
+        again = tuple(map(lasting, origins))
         up = AUTO if auto else up
         whole = cls(
             tuple(references), skipped, os.fspath(origins[0]) + more, again, up, front, steps, pictures, left_out

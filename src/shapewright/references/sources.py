@@ -17,6 +17,7 @@ from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.manifests.folder_tables import Tables
 from shapewright.references.manifests.rows import Row, Switches, rows_of
 from shapewright.references.orientation import Orientation
+from shapewright.references.origins.lists import places_of
 from shapewright.references.other_kinds import refusal
 from shapewright.references.readers.formats import CLOUDS, EXTENSIONS, MESHES
 from shapewright.references.readers.pictures import KINDS as PICTURES
@@ -77,27 +78,27 @@ class Source:
 def find(origins: Sequence[Origin], up: str = "y", front: str | None = None, keep: Iterable[str] = ()) -> list[Source]:
     """The files of a collection, in natural order of their names (chair2 before chair10).
 
-    A folder gives the files in it and in all folders below, but those that this program wrote there: runs and samples.
-    Beside meshes pictures are textures and previews, and are left out. A ``.zip`` or ``.tar`` file, packed or not, is
-    read as a folder. A pattern is a glob, ``**`` included. A ``.csv`` file is a manifest with a column ``path``,
-    relative to the manifest, and if wanted the columns ``name``, ``up``, ``front``, ``object`` and those of
-    ``Switches``; for an empty cell the argument holds. A ``shapewright.csv`` in a folder, with the same columns, says
-    this of files of that folder, and lists no others. Hidden files are left out. Shapes of a kind that is not read
-    have their refusal; other files are left out. A name is the file's stem, or the shape's id in
-    ``<id>/models/model_normalized.obj`` (ShapeNet). Where names clash the path takes its place. Raises CollectionError
-    where there is nothing to read.
+    ``@list.txt`` stands for the sources that a file lists, an address such as ``s3://bucket/chairs`` for what is
+    fetched from there, see ``origins``. A folder gives the files in it and in all folders below, but those that
+    this program wrote there: runs and samples. Beside meshes pictures are textures and previews, and are left out.
+    A ``.zip`` or ``.tar`` file, packed or not, is read as a folder. A pattern is a glob, ``**`` included. A
+    ``.csv`` file is a manifest with a column ``path``, relative to the manifest, and if wanted the columns
+    ``name``, ``up``, ``front``, ``object`` and those of ``Switches``; for an empty cell the argument holds. A
+    ``shapewright.csv`` in a folder, with the same columns, says this of files of that folder, and lists no others.
+    Hidden files are left out. Shapes of a kind that is not read have their refusal; other files are left out. A
+    name is the file's stem, or the shape's id in ``<id>/models/model_normalized.obj`` (ShapeNet). Where names clash
+    the path takes its place. Raises CollectionError where there is nothing to read.
     """
     default, by_author = Orientation.of(up, front), is_authors(up, front)
     if not origins:
         raise CollectionError("the list of references is empty; give it folders, patterns or files")
-    sources: list[Source] = []
-    tables = Tables()
+    sources, tables = list[Source](), Tables()
     try:
-        for path in (Path(origin).expanduser() for origin in origins):
+        for path in (paths := list(places_of(origins))):
             if path.suffix.lower() == MANIFEST and path.is_file():
                 sources += _in_manifest(path, up, front)
             else:
-                for source in _expand(path, default, alone=len(origins) == 1):
+                for source in _expand(path, default, alone=len(paths) == 1):
                     row, source = tables.row(source.path), replace(source, by_author=by_author)
                     sources.append(_told(source, row, up, front) if row else source)
     except OSError as error:

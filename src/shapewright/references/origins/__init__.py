@@ -1,0 +1,1 @@
+"""Where references are told to be: lists of paths, and addresses of other machines."""
