@@ -53,9 +53,8 @@ def test_replicas_are_kept_where_they_are_nearer():
     judge, start = Judge.of(REFERENCES, sw.Settings(workers=1)), Start.of(REFERENCES, slab.space, Earlier("quick"))
     far, near = {"width": 0.5, "depth": 0.6}, {"width": 0.3, "depth": 0.8}
     with Workers(slab, 1) as crew:
-        first = resume(start, crew, judge)
+        first = resume(start, crew, judge, range(2))
         assert first.parameters == [slab.space.defaults, start.known[1]]  # in the order of the names: thin, wide
-        assert resume(Start.of(REFERENCES, slab.space, None), crew, judge).parameters == []
         later = first.tried([near, far], crew, judge)
     assert later.parameters == [near, start.known[1]]
     assert later.distances[0] < first.distances[0] and later.distances[1] == first.distances[1]
@@ -67,7 +66,7 @@ def test_parameters_known_besides_are_tried_where_they_are_better():
     start = Start.of(REFERENCES, slab.space, None, known)
     assert [len(several) for several in start.others] == [2, 1]  # in the order of the names: thin, wide
     with Workers(slab, 1) as crew:
-        replicas = resume(start, crew, Judge.of(REFERENCES, sw.Settings(workers=1)))
+        replicas = resume(start, crew, Judge.of(REFERENCES, sw.Settings(workers=1)), range(2))
     thin, wide = replicas.builds
     assert thin.parameters == pytest.approx({"width": 0.3, "depth": 0.8}) and replicas.fidelities[0] > 0.9
     assert wide.parameters == pytest.approx({"width": 0.3, "depth": 1.0})  # no other was known
