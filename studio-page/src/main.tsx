@@ -11,6 +11,8 @@ import "./styles/inspector.css";
 import "./styles/loop.css";
 import "./styles/history.css";
 import "./styles/feedback.css";
+import "./styles/explore.css";
+import "./styles/parameters.css";
 
 start();
 render(<App />, document.getElementById("page")!);

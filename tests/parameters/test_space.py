@@ -142,3 +142,11 @@ def test_values_are_carried_to_an_edited_space():
     assert space.carry(old, {"legs": "pedestal", "round": True})["round"] is True
     assert space.carry(old, {"legs": "pedestal"})["legs"] == "pedestal"
     assert space.carry({"height": "tall", "shelves": True}) == space.defaults
+
+
+@given(spaces(), st.integers(0, 2**16))
+def test_values_that_are_held_all_vectors_have(space, seed):
+    held = {"b": True, "i": space["i"].high + 5}
+    found = list(space.draw(6, seed, held))
+    assert found and all(one["b"] is True and one["i"] == space["i"].high for one in found)
+    assert found == list(space.draw(6, seed, held))

@@ -119,16 +119,21 @@ class ParameterSpace:
         """
         return list(self.draw(count, seed))
 
-    def draw(self, count: int, seed: int = 0) -> Iterator[Parameters]:
-        """The vectors of ``sample``, one after the other: who needs the first few only does not draw the rest."""
+    def draw(self, count: int, seed: int = 0, held: Mapping[str, Value] | None = None) -> Iterator[Parameters]:
+        """The vectors of ``sample``, one after the other: who needs the first few only does not draw the rest.
+
+        held: values that all vectors have, or the nearest that this space allows.
+        """
         if count < 0:
             raise ValueError(f"cannot sample {count} vectors")
         rng = np.random.default_rng(seed)
-        if self.combinations <= max(_ENUMERABLE, 4 * count):
-            levels = [[(p.name, level) for level in p.levels or ()] for p in self.parameters]
-            every = list(self.different(map(dict, product(*levels))))
+        fixed = {p.name: _nearest(p, held[p.name], p.default) for p in self.parameters if held and p.name in held}
+        free = ParameterSpace(tuple(p for p in self.parameters if p.name not in fixed))
+        if free.combinations <= max(_ENUMERABLE, 4 * count):
+            levels = [[(p.name, level) for level in p.levels or ()] for p in free]
+            every = list(self.different({**dict(vector), **fixed} for vector in product(*levels)))
             return iter([every[i] for i in rng.permutation(len(every))[:count]])
-        draws = ({p.name: p.sample(rng) for p in self.parameters} for _ in range(_DRAWS_PER_VECTOR * count))
+        draws = ({**{p.name: p.sample(rng) for p in free}, **fixed} for _ in range(_DRAWS_PER_VECTOR * count))
         return islice(self.different(draws), count)
 
     def different(self, vectors: Iterable[Mapping[str, Value]]) -> Iterator[Parameters]:

@@ -3,11 +3,13 @@
 import { useSignalEffect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { CollectionView } from "../collection/view";
+import { ExploreView } from "../explore/view";
 import { FeedbackView } from "../feedback/view";
 import { HistoryView } from "../history/view";
 import { Inspector } from "../inspector/view";
 import { startEditing } from "../loop/editing";
 import { LoopView } from "../loop/view";
+import { ParametersView } from "../parameters/view";
 import { fit } from "../state/actions";
 import { useKeys } from "../state/keys";
 import { go, route, VIEWS } from "../state/route";
@@ -19,14 +21,21 @@ import { Help, helping } from "./help";
 import { Notices } from "./notices";
 import { Problems } from "./problems";
 
-const SHOWN = { collection: CollectionView, loop: LoopView, history: HistoryView, feedback: FeedbackView } as const;
+const SHOWN = {
+  collection: CollectionView,
+  loop: LoopView,
+  history: HistoryView,
+  feedback: FeedbackView,
+  explore: ExploreView,
+  parameters: ParametersView,
+} as const;
 
 export function App() {
   useKeys("Everywhere", [
     { keys: ["?"], does: "these keys", run: () => (helping.value = true) },
     {
       keys: VIEWS.map((_, i) => `${i + 1}`),
-      does: "Collection, Loop, History, Feedback",
+      does: "Collection, Loop, History, Feedback, Explore, Parameters",
       run: (event) => go(VIEWS[Number(event.key) - 1]!),
     },
     {

@@ -13,7 +13,7 @@ import type { Answer } from "../wire/messages";
 import { ExportMenu } from "./exporting";
 import { helping } from "./help";
 
-const LABELS = { collection: "Collection", loop: "Loop", history: "History", feedback: "Feedback" } as const;
+const LABELS = { collection: "Collection", loop: "Loop", history: "History", feedback: "Feedback", explore: "Explore", parameters: "Parameters" } as const; // prettier-ignore
 const ANSWERS: Record<Answer, string> = {
   "carried over": "parameters carried over",
   "most similar samples": "first guesses shown",

@@ -10,7 +10,7 @@ import { percent, shown, significant, words } from "../ui/numbers";
 import type { Parameter, Value } from "../wire/messages";
 import { ControlOf } from "./control";
 import { edited, past, undone } from "./pair/edits";
-import { active, atLimit, isBeyond, redo, reference, reset, resetOne, set, undo, values } from "./pair/session";
+import { active, alone, atLimit, isBeyond, redo, reference, reset, resetOne, set, undo, values } from "./pair/session";
 
 export function Parameters() {
   const found = reference.value;
@@ -34,23 +34,27 @@ export function Parameters() {
           title={`Do it again (${MODIFIER}Shift Z)`}
           onClick={redo}
         />
-        <Button
-          kind="quiet"
-          disabled={!found?.predicted}
-          title="Set everything to what the network predicted, before the search"
-          onClick={() => reset(found?.predicted ?? null)}
-        >
-          As predicted
-        </Button>
-        <Button
-          kind="quiet"
-          icon="reset"
-          disabled={!changed}
-          title="Back to what was found (r)"
-          onClick={() => reset()}
-        >
-          As found
-        </Button>
+        {!alone.value && (
+          <>
+            <Button
+              kind="quiet"
+              disabled={!found?.predicted}
+              title="Set everything to what the network predicted, before the search"
+              onClick={() => reset(found?.predicted ?? null)}
+            >
+              As predicted
+            </Button>
+            <Button
+              kind="quiet"
+              icon="reset"
+              disabled={!changed}
+              title="Back to what was found (r)"
+              onClick={() => reset()}
+            >
+              As found
+            </Button>
+          </>
+        )}
       </header>
       {parameters.length === 0 && <p class="soft">The procedure has no parameters that could be read.</p>}
       {parameters.map((parameter) => (

@@ -3,13 +3,15 @@
 import { signal } from "@preact/signals";
 import type { Slug } from "../wire/messages";
 
-export const VIEWS = ["collection", "loop", "history", "feedback"] as const;
+export const VIEWS = ["collection", "loop", "history", "feedback", "explore", "parameters"] as const;
 export type ViewName = (typeof VIEWS)[number];
 
 export interface Route {
   view: ViewName;
   /** The reference open in the inspector, over the collection. */
   slug: Slug | null;
+  /** What of the view is open, where it says so in the address. */
+  rest: string | null;
 }
 
 export const route = signal<Route>(read());
@@ -30,7 +32,8 @@ export function inspect(slug: Slug): void {
 }
 
 function read(): Route {
-  const [head = "", tail] = location.hash.slice(1).split("/");
-  if (head === "inspect" && tail) return { view: "collection", slug: decodeURIComponent(tail) };
-  return { view: VIEWS.find((view) => view === head) ?? "collection", slug: null };
+  const [head = "", ...tail] = location.hash.slice(1).split("/");
+  const rest = tail.join("/") || null;
+  if (head === "inspect" && rest) return { view: "collection", slug: decodeURIComponent(rest), rest: null };
+  return { view: VIEWS.find((view) => view === head) ?? "collection", slug: null, rest };
 }

@@ -26,6 +26,9 @@ const PATHS = {
   over: "M2.5 2.500h7.500v7.500H2.500zM6 6h7.500v7.500H6z",
   turned: "M12.8 5.500A5.3 5.3 0 1 0 13.300 9M13 2.200v3.500H9.500",
   difference: "M6.3 3.200a4.8 4.8 0 1 0 0 9.600M9.7 3.200a4.8 4.8 0 1 1 0 9.600M8 4v8",
+  dice: "M3 3h10v10H3zM5.800 5.800v.1M10.200 10.200v.1M10.200 5.800v.1M5.800 10.200v.1",
+  lock: "M4 7.500h8v6H4zM5.500 7.500V5.500a2.500 2.500 0 0 1 5 0v2",
+  along: "M2 8h12M5 5 2 8l3 3M11 5l3 3-3 3",
 } as const;
 
 export type IconName = keyof typeof PATHS;

@@ -3,11 +3,13 @@
 import { keyHeaders, protocols } from "./access";
 import { decode } from "./binary";
 import type { Evaluated } from "./binary";
-import type { Change, PageMessage, Slug, Values } from "./messages";
+import type { Change, Explore, ExploredMessage, ExploringMessage, PageMessage, Slug, Values } from "./messages";
 
 const FIRST_WAIT = 400;
 const LONGEST_WAIT = 5000;
 const EVALUATED = new Set(["verdict", "drawing", "failed"]);
+const EXPLORED = new Set(["exploring", "explored"]);
+type Explored = ExploringMessage | ExploredMessage;
 
 export interface Listener {
   changed(change: Change): void;
@@ -18,6 +20,7 @@ export interface Listener {
 let socket: WebSocket | null = null;
 let lastId = 0;
 let evaluationListener: (message: Evaluated) => void = () => undefined;
+let exploreListener: (message: Explored) => void = () => undefined;
 
 /** Connect, and again whenever the connection is lost. */
 export function connect(listener: Listener, wait = FIRST_WAIT): void {
@@ -32,7 +35,8 @@ export function connect(listener: Listener, wait = FIRST_WAIT): void {
   });
   socket.addEventListener("message", ({ data }: MessageEvent<string | ArrayBuffer>) => {
     if (data instanceof ArrayBuffer) return evaluationListener(decode(data));
-    const message = JSON.parse(data) as Change | Evaluated;
+    const message = JSON.parse(data) as Change | Evaluated | Explored;
+    if (EXPLORED.has(message.type)) return exploreListener(message as Explored);
     if (EVALUATED.has(message.type)) evaluationListener(message as Evaluated);
     else listener.changed(message as Change);
   });
@@ -55,6 +59,21 @@ export function evaluate(slug: Slug | null, parameters: Values | null, beyond: s
   lastId += 1;
   send({ type: "evaluate", id: lastId, slug, parameters, beyond, residuals });
   return lastId;
+}
+
+/** Ask for shapes without references; returns the number that the answers carry. */
+export function explore(order: Omit<Explore, "type" | "id">): number {
+  lastId += 1;
+  send({ type: "explore", id: lastId, ...order });
+  return lastId;
+}
+
+/** Who hears of these shapes; returns how to stop listening. */
+export function onExplored(listener: (message: Explored) => void): () => void {
+  exploreListener = listener;
+  return () => {
+    if (exploreListener === listener) exploreListener = () => undefined;
+  };
 }
 
 /** Say which pairs the author looks at. */

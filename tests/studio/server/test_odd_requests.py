@@ -239,3 +239,48 @@ def test_requests_that_never_end_are_ended(running: Studio, sent: bytes) -> None
             pass
         assert time.monotonic() - begun < 30
     assert running.get("/api/source")["text"] == PROCEDURE
+
+
+@pytest.mark.parametrize(
+    "odd",
+    [
+        '"count": 0',
+        '"count": 1000000000',
+        '"count": 2.5',
+        '"seed": -1',
+        '"seed": 1e999',
+        '"seed": 1' + "0" * 40,
+        '"vary": ["height", "leg", "shelf"]',
+        '"vary": [["height"]]',
+        '"vary": null',
+        '"locked": []',
+        '"locked": {"height": ' + "[" * 50_000,
+        '"base": "all"',
+    ],
+)
+def test_shapes_that_cannot_be_are_not_explored(running: Studio, odd: str) -> None:
+    running.listen()
+    assert running.socket is not None
+    running.socket.send(f'{{"type": "explore", "id": 1, {odd}}}')
+    assert running.next(lambda m: m["type"] in ("wrong", "exploring"), 30)["type"] == "wrong"
+    running.say(type="explore", id=2, count=1)
+    assert running.next(lambda m: m["type"] == "explored", 30)["problem"] is None
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        {"locked": {"height": "\x00", "leg": [1], "nobody": 1, "__class__": 2, "shelf": 7}},
+        {"locked": {"height": 1e308, "leg": -1e308}},
+        {"vary": ["nobody", "__init__"], "base": {"nobody": "x" * 10_000}},
+        {"vary": ["height", "height"], "base": {"leg": True}},
+    ],
+)
+def test_odd_values_are_explored_as_the_nearest_that_can_be(running: Studio, order: dict[str, Any]) -> None:
+    running.listen()
+    running.say(type="explore", id=3, count=2, **order)
+    answer = running.next(lambda m: m["type"] in ("wrong", "explored") and m.get("id", 3) == 3, 30)
+    if answer["type"] == "explored":
+        assert answer["problem"] is None and set(answer["parameters"]) == {"height", "leg", "shelf", "shelf_height"}
+        assert 0.3 <= answer["parameters"]["height"] <= 1.2
+    assert running.get("/api/state")["bench"] == "ready"

@@ -12,8 +12,9 @@ import signal
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, TypeVar
 
 from shapewright.building.clock import TimeLimit, time_limit
 from shapewright.building.outcomes import Build, Failure
@@ -22,10 +23,12 @@ from shapewright.parameters import Parameters, to_record
 from shapewright.procedures import Procedure, ProcedureError, describe, load_procedure, place_of
 from shapewright.processes.limits import Limits, limit_memory
 from shapewright.shapes import Mesh
+from shapewright.studio.bench.planning.plan import Plan, planned
 from shapewright.studio.bench.workshop import LOADING_SECONDS, Built, Version
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.collection import Parameter
 
+Some = TypeVar("Some")
 MOST_TRIANGLES = 400_000
 """More than a page can turn smoothly."""
 
@@ -58,11 +61,11 @@ def try_build(
 def serve(requests: BinaryIO, answers: BinaryIO) -> None:
     """Load the procedure that the first request names and build the shape of every later one, until there are no more.
 
-    A request "sample" asks for parameters of many shapes. Requests and answers are pickled payloads; a message
+    Requests "sample" and "plan" ask for parameters of many shapes. Requests and answers are pickled payloads; a message
     "working" asks the other side for patience.
     """
 
-    def answer(value: Version | Built | Failure | list[Parameters]) -> None:
+    def answer(value: Version | Built | Failure | Plan | list[Parameters]) -> None:
         write_frame(answers, "answer", pickle.dumps(value))
 
     def working() -> None:
@@ -89,7 +92,9 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
     while (received := _received(requests)) is not None:
         kind, asked = received
         if kind == "sample":
-            answer(_sample(procedure, *asked))
+            answer(_listed(procedure, partial(procedure.space.sample, *asked)))
+        elif kind == "plan":
+            answer(_listed(procedure, partial(planned, procedure.space, asked)))
         else:
             values, beyond = asked
             answer(try_build(procedure, values, limits, working, beyond))
@@ -100,10 +105,11 @@ def _received(requests: BinaryIO) -> tuple[str, Any] | None:
     return (frame[0], pickle.loads(frame[1])) if frame else None
 
 
-def _sample(procedure: Procedure, count: int, seed: int) -> list[Parameters] | Failure:
+def _listed(procedure: Procedure, work: Callable[[], Some]) -> Some | Failure:
+    """What lists parameters of shapes, or why there are none."""
     try:
         with time_limit(LOADING_SECONDS):
-            return procedure.space.sample(count, seed=seed)
+            return work()
     except TimeLimit as error:
         return Failure("time", describe(error), place_of(error, procedure.path))
     except ValueError as error:  # a `when` failed

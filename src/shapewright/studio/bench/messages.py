@@ -9,10 +9,16 @@ from msgspec import Struct
 from shapewright.processes import Limits
 from shapewright.settings import Align
 from shapewright.studio.project.listing import Origin
-from shapewright.studio.wire.answers import DrawingMessage, FailedMessage, VerdictMessage
+from shapewright.studio.wire.answers import (
+    DrawingMessage,
+    ExploredMessage,
+    ExploringMessage,
+    FailedMessage,
+    VerdictMessage,
+)
 from shapewright.studio.wire.collection import Axes, Parameter
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.requests import Evaluate
+from shapewright.studio.wire.requests import Evaluate, Explore
 from shapewright.studio.wire.values import Slug, Values
 
 
@@ -65,6 +71,13 @@ class Live(BenchMessage, frozen=True):
     evaluate: Evaluate
 
 
+class Exploring(BenchMessage, frozen=True):
+    """Answer a page that wants to see shapes without references."""
+
+    client: int  # the page
+    order: Explore
+
+
 class Fetch(BenchMessage, frozen=True):
     """One thing about a reference is asked for."""
 
@@ -81,7 +94,7 @@ class End(BenchMessage, frozen=True):
     """The server has ended."""
 
 
-Request: TypeAlias = References | Pictures | First | Load | SweepOrder | Live | Fetch | End
+Request: TypeAlias = References | Pictures | First | Load | SweepOrder | Live | Exploring | Fetch | End
 
 
 class Ready(BenchMessage, frozen=True):
@@ -152,11 +165,11 @@ class SweepEnded(BenchMessage, frozen=True):
     given_up: bool  # too many shapes exceeded the time limit
 
 
-LiveMessage: TypeAlias = VerdictMessage | DrawingMessage | FailedMessage
+LiveMessage: TypeAlias = VerdictMessage | DrawingMessage | FailedMessage | ExploringMessage | ExploredMessage
 
 
 class Answered(BenchMessage, frozen=True):
-    """To a page: a message, or None with a binary message as payload."""
+    """To a page: a message, or None with a binary message as payload; the payload of what was explored is a PNG."""
 
     client: int
     message: LiveMessage | None

@@ -21,6 +21,7 @@ from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.studio.bench import messages, shape_messages
+from shapewright.studio.bench.exploring.exploration import Exploration
 from shapewright.studio.bench.gallery import Gallery, Stance
 from shapewright.studio.bench.inbox import Inbox
 from shapewright.studio.bench.residual_colours import ResidualColours
@@ -33,8 +34,11 @@ from shapewright.studio.wire.answers import DrawingMessage, FailedMessage
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.detail import About
 from shapewright.studio.wire.problems import Problem, of_failure
-from shapewright.studio.wire.requests import Evaluate
+from shapewright.studio.wire.requests import Evaluate, Explore
 from shapewright.studio.wire.values import Slug, Values
+
+_EXPLORED = "explored"
+"""How the names of tasks begin that show a page shapes without references."""
 
 
 class Bench:
@@ -74,6 +78,8 @@ class Bench:
                     self._sweep(request)
                 case messages.Live():
                     self._evaluate(request.client, request.evaluate)
+                case messages.Exploring():
+                    self._explore(request.client, request.order)
                 case messages.Fetch():
                     self._fetch(request)
                 case messages.End():
@@ -126,7 +132,7 @@ class Bench:
         self._want(before.listed.sources if facts.up != before.facts.up else changed)
 
     def _begin(self, name: str, task: Iterator[None]) -> None:
-        """Before all else that is done between requests, which depends on it; in place of one of this name."""
+        """Before all else that is done between requests: that depends on it, or a page waits; in place of its like."""
         self._tasks = {name: task, **{other: one for other, one in self._tasks.items() if other != name}}
 
     def _find_axes(self) -> Iterator[None]:
@@ -157,7 +163,9 @@ class Bench:
             yield
 
     def _load(self, request: messages.Load) -> None:
-        self._tasks.pop("sweep", None)
+        old = [name for name in self._tasks if name.startswith(("sweep", _EXPLORED))]
+        for name in old:
+            del self._tasks[name]
         path = Path(request.procedure)
         self._root = path.parent
         try:
@@ -234,6 +242,13 @@ class Bench:
             self._colours = ResidualColours(target.shape)
         for side, residual in self._colours.of(replica).items():
             answer(None, shape_messages.residual_message(residual, id=number, slug=slug, shape=side))
+
+    def _explore(self, client: int, order: Explore) -> None:
+        def answer(message: messages.LiveMessage, payload: bytes) -> None:
+            self._send(messages.Answered(client=client, message=message), payload)
+
+        if self._workshop.open:
+            self._begin(f"{_EXPLORED} {client}", Exploration(order, self._root, self._workshop, answer).run())
 
     def _fetch(self, request: messages.Fetch) -> None:
         message: About | DrawingMessage | None = None

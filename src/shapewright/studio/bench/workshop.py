@@ -17,9 +17,11 @@ from shapewright.parameters import Parameters, Value
 from shapewright.procedures import Facts, ProcedureError
 from shapewright.processes.limits import Limits, crash, too_long
 from shapewright.processes.worker import SINGLE_THREADED
+from shapewright.studio.bench.planning.plan import Plan
 from shapewright.studio.wire.child import Child, Frame
 from shapewright.studio.wire.collection import Parameter
 from shapewright.studio.wire.problems import Problem, of_error, syntax_problem
+from shapewright.studio.wire.requests import Explore
 
 LOADING_SECONDS = 20.0
 """What reading the author's file may take, its imports included."""
@@ -110,6 +112,15 @@ class Workshop:
             return answer
         self._stop()
         return []
+
+    def plan(self, order: Explore) -> Plan | Failure | None:
+        """The parameters of the shapes that an author wants to see, or why there are none; None when that was
+        interrupted. Raises Broken as ``build`` does."""
+        self._ask("plan", order)
+        answer = self._wait(_PATIENCE, _PATIENCE) or no_answer(_PATIENCE)
+        if not isinstance(answer, Plan):
+            self._stop()
+        return None if self.interrupt.is_set() else answer
 
     def _ask(self, kind: str, value: object) -> None:
         """Send a request to the builder, which is started where it is not there."""

@@ -114,6 +114,9 @@ def _hear(session: Session, page: Page, text: str) -> None:
         if isinstance(message, requests.Visible):
             session.bench.put_first(message.slugs)
             return
+        if isinstance(message, requests.Explore):
+            session.bench.explore(page.number, message)
+            return
         requests.check_known([message.slug], session.display.board.references)
         session.bench.evaluate(page.number, message)
     except requests.Wrong as error:

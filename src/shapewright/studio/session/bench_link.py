@@ -10,14 +10,24 @@ from msgspec.structs import replace
 from shapewright.processes import Limits
 from shapewright.settings import Settings
 from shapewright.studio.bench.client import BenchProcess
-from shapewright.studio.bench.messages import First, Live, LiveMessage, Load, News, Pictures, References, SweepOrder
+from shapewright.studio.bench.messages import (
+    Exploring,
+    First,
+    Live,
+    LiveMessage,
+    Load,
+    News,
+    Pictures,
+    References,
+    SweepOrder,
+)
 from shapewright.studio.project.authored import Authored
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.session.display import Display
 from shapewright.studio.session.pages import Pages
-from shapewright.studio.wire.answers import VerdictMessage
+from shapewright.studio.wire.answers import ExploredMessage, VerdictMessage
 from shapewright.studio.wire.collection import Stage
-from shapewright.studio.wire.requests import Evaluate
+from shapewright.studio.wire.requests import Evaluate, Explore
 from shapewright.studio.wire.values import Slug, Values
 
 
@@ -52,6 +62,11 @@ class BenchLink:
         shown = self._display.board.references.get(request.slug) if request.slug is not None else None
         values = self._authored.values(shown.parameters if shown else None, request.parameters)
         self.process.ask(Live(client=page, evaluate=replace(request, parameters=values)))
+
+    def explore(self, page: int, request: Explore) -> None:
+        """Show a page shapes without references; it asks again where the bench or the procedure is not ready."""
+        if self.process.state == "ready" and self._authored.state == "good":
+            self.process.ask(Exploring(client=page, order=request))
 
     def evaluate_waiting(self) -> None:
         """Ask what had to wait."""
@@ -103,4 +118,6 @@ class BenchLink:
             standard, fidelity, distance = self._display.board.standard, message.fidelity, message.distance
             message = replace(message, **standard.judged(fidelity, distance))
             message = replace(message, colour=standard.colour(message.grade, fidelity, distance))
+        if isinstance(message, ExploredMessage) and payload:
+            message = replace(message, picture=self._display.pictures.add(payload))
         self._pages.send(page, payload if message is None else message)

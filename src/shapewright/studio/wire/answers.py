@@ -1,4 +1,7 @@
-"""Answers of live evaluation: shapes, and what the judge says of them. Meshes travel in binary messages."""
+"""Answers of live evaluation: shapes, and what the judge says of them; and shapes without references.
+
+Meshes travel in binary messages.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ from numpy.typing import NDArray
 
 from shapewright.studio.wire.judgement import Grade, Measures, Piece
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.values import Message, Slug, Values, encode
+from shapewright.studio.wire.values import Address, Message, Slug, Value, Values, encode
 
 Side: TypeAlias = Annotated[Literal["replica", "reference"], Meta(title="Side")]
 BufferKind: TypeAlias = Annotated[Literal["f32", "u32", "i32"], Meta(title="BufferKind")]
@@ -96,6 +99,48 @@ class FailedMessage(Message, frozen=True, kw_only=True, tag="failed"):
     slug: Slug | None
     problem: Problem
     active: list[str] | None  # null where that is not known
+
+
+class Soundness(Struct, frozen=True, kw_only=True):
+    """Whether a mesh is clean."""
+
+    sound: bool
+    closed: bool  # every edge has a face on either side
+    manifold: bool
+    oriented: bool  # wound outwards
+    self_intersections: int  # pairs of faces that cross or overlap
+    slivers: int  # faces without height
+    components: int
+    triangles: int
+
+
+class Along(Struct, frozen=True, kw_only=True):
+    """A parameter that shapes go along."""
+
+    name: str
+    values: list[Value]
+
+
+class ExploringMessage(Message, frozen=True, kw_only=True, tag="exploring"):
+    """Shapes without references are on their way."""
+
+    id: int  # of the request that it answers
+    shapes: list[Values]  # parameters of each
+    along: list[Along]  # the shapes go along these, the last one fastest; empty where they are random
+    problem: Problem | None  # why there are none
+
+
+class ExploredMessage(Message, frozen=True, kw_only=True, tag="explored"):
+    """One of these shapes was built, or why not."""
+
+    id: int
+    index: int
+    parameters: Values
+    active: list[str]  # names of parameters that matter there
+    picture: Address | None = None
+    soundness: Soundness | None  # null of a drawing, of what is too large to be examined, and without a shape
+    problem: Problem | None
+    given_up: bool = False  # none of the others comes: too many exceeded the time limit
 
 
 def binary(head: MeshHead | ResidualsHead, buffers: Buffers) -> bytes:

@@ -15,6 +15,10 @@ from shapewright.studio.wire.work import JobKind
 
 MOST_SAMPLES = 10_000
 """More would fill a disk without anybody looking at them."""
+MOST_SHAPES = 100
+"""More do not fit on a screen."""
+MOST_SEED = 2**53
+"""More are no whole numbers in a browser."""
 Part: TypeAlias = Annotated[Literal["replicas", "samples", "report", "parameters"], Meta(title="Part")]
 Frame: TypeAlias = Annotated[Literal["procedure", "reference"], Meta(title="Frame")]
 """Axes, units and place: as the procedure builds, or of the reference's file, over which the replica lies then."""
@@ -40,13 +44,24 @@ class Evaluate(Struct, frozen=True, kw_only=True, tag_field="type", tag="evaluat
     residuals: bool = False  # whether to send the two surfaces with their distances
 
 
+class Explore(Struct, frozen=True, kw_only=True, tag_field="type", tag="explore"):
+    """Build, draw and examine many shapes without references, at random or along parameters."""
+
+    id: int  # rises from one to the next; the answers carry it
+    seed: Annotated[int, Meta(ge=0, le=MOST_SEED)] = 0  # the same one gives the same random shapes
+    count: Annotated[int, Meta(ge=1, le=MOST_SHAPES)] = 24  # of random shapes
+    locked: Values = {}  # values that all shapes have
+    vary: Annotated[list[str], Meta(max_length=2)] = []  # names of parameters to go along, in place of random shapes
+    base: Values | None = None  # what does not vary then; what is left out is at its default
+
+
 class Visible(Struct, frozen=True, kw_only=True, tag_field="type", tag="visible"):
     """Other tiles are on the screen; their pictures and measures are to come first."""
 
     slugs: list[Slug]
 
 
-PageMessage: TypeAlias = Annotated[Evaluate | Visible, Meta(title="PageMessage")]
+PageMessage: TypeAlias = Annotated[Evaluate | Explore | Visible, Meta(title="PageMessage")]
 """What the page sends over the WebSocket."""
 
 
@@ -141,8 +156,9 @@ def _words(kind: Any) -> str:
 
 
 _SHOULD: Mapping[Any, str] = {
-    Evaluate | Visible: "type is evaluate or visible; id is a whole number, slugs is a list of strings, "
-    "parameters are a mapping of names to values, or null, beyond is a list of names",
+    Evaluate | Explore | Visible: "type is evaluate, explore or visible; id is a whole number, slugs is a list of "
+    "strings, parameters, locked and base are mappings of names to values, beyond and vary are lists of names; "
+    f"count lies between 1 and {MOST_SHAPES}, seed is a whole number from 0 on, two parameters vary at most",
     SourceEdit: "text is a string, digest is a string or null",
     CopyOrder: "text is a string",
     FitOrder: "fresh is true or false",
@@ -169,10 +185,10 @@ def decode(body: bytes | str, kind: type[Request]) -> Request:
         raise Wrong(f"the body is no JSON: {error}") from error
 
 
-def decode_page_message(text: str) -> Evaluate | Visible:
+def decode_page_message(text: str) -> Evaluate | Explore | Visible:
     """What a page sent over the WebSocket. Raises Wrong."""
-    kind: Any = Evaluate | Visible
-    message: Evaluate | Visible = decode(text, kind)
+    kind: Any = Evaluate | Explore | Visible
+    message: Evaluate | Explore | Visible = decode(text, kind)
     return message
 
 

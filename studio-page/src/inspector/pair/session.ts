@@ -91,6 +91,30 @@ export function open(next: Slug): () => void {
   };
 }
 
+/** Whether a shape is open that has no reference. */
+export const alone = signal(false);
+
+/** Show a shape without a reference until the returned function is called. */
+export function openAlone(start: Values): () => void {
+  slug.value = null;
+  for (const empty of [reference, original, replica, outcome, figures, failure]) empty.value = null;
+  forgetEdits();
+  edited.value = start;
+  alone.value = true;
+  const deaf = onEvaluated(hear);
+  const unwatch = effect(() => {
+    const { digest, state } = procedure.value;
+    if (connected.value && digest && state === "good") untracked(ask);
+  });
+  return () => {
+    deaf();
+    unwatch();
+    alone.value = false;
+    for (const empty of [replica, outcome, failure]) empty.value = null;
+    forgetEdits();
+  };
+}
+
 /** Ask again whenever what was found for the pair, or the procedure, or the connection has changed. */
 function watch(next: Slug): () => void {
   let shape: string | null | undefined;
@@ -137,8 +161,8 @@ function note(next: Slug): (error: unknown) => void {
 }
 
 function ask(): void {
-  if (!slug.value) return;
-  const coloured = colouring.value === "distance" && dimension.value === 3;
+  if (!slug.value && !alone.value) return;
+  const coloured = colouring.value === "distance" && dimension.value === 3 && !alone.value;
   waiting.value = evaluate(slug.value, edited.value, beyond(), coloured);
 }
 

@@ -1,8 +1,8 @@
 // Made from src/shapewright/studio/wire/answers.py by `python tools/message_types.py`.
 
+import type { Address, Slug, Value, Values } from "./values";
 import type { Grade, Measures, Piece } from "./judgement";
 import type { Problem } from "./problems";
-import type { Slug, Values } from "./values";
 
 export type Side = "replica" | "reference";
 
@@ -106,4 +106,55 @@ export interface FailedMessage {
   problem: Problem;
   /** null where that is not known. */
   active: string[] | null;
+}
+
+/** Whether a mesh is clean. */
+export interface Soundness {
+  sound: boolean;
+  /** every edge has a face on either side. */
+  closed: boolean;
+  manifold: boolean;
+  /** wound outwards. */
+  oriented: boolean;
+  /** pairs of faces that cross or overlap. */
+  self_intersections: number;
+  /** faces without height. */
+  slivers: number;
+  components: number;
+  triangles: number;
+}
+
+/** A parameter that shapes go along. */
+export interface Along {
+  name: string;
+  values: Value[];
+}
+
+/** Shapes without references are on their way. */
+export interface ExploringMessage {
+  type: "exploring";
+  /** of the request that it answers. */
+  id: number;
+  /** parameters of each. */
+  shapes: Values[];
+  /** the shapes go along these, the last one fastest; empty where they are random. */
+  along: Along[];
+  /** why there are none. */
+  problem: Problem | null;
+}
+
+/** One of these shapes was built, or why not. */
+export interface ExploredMessage {
+  type: "explored";
+  id: number;
+  index: number;
+  parameters: Values;
+  /** names of parameters that matter there. */
+  active: string[];
+  picture: Address | null;
+  /** null of a drawing, of what is too large to be examined, and without a shape. */
+  soundness: Soundness | null;
+  problem: Problem | null;
+  /** none of the others comes: too many exceeded the time limit. */
+  given_up: boolean;
 }

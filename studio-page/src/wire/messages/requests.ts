@@ -25,13 +25,30 @@ export interface Evaluate {
   residuals: boolean;
 }
 
+/** Build, draw and examine many shapes without references, at random or along parameters. */
+export interface Explore {
+  type: "explore";
+  /** rises from one to the next; the answers carry it. */
+  id: number;
+  /** the same one gives the same random shapes. */
+  seed: number;
+  /** of random shapes. */
+  count: number;
+  /** values that all shapes have. */
+  locked: Values;
+  /** names of parameters to go along, in place of random shapes. */
+  vary: string[];
+  /** what does not vary then; what is left out is at its default. */
+  base: Values | null;
+}
+
 /** Other tiles are on the screen; their pictures and measures are to come first. */
 export interface Visible {
   type: "visible";
   slugs: Slug[];
 }
 
-export type PageMessage = Evaluate | Visible;
+export type PageMessage = Evaluate | Explore | Visible;
 
 /** A new text of the procedure. */
 export interface SourceEdit {

@@ -1,0 +1,1 @@
+"""Many shapes of the procedure, beside or without references."""

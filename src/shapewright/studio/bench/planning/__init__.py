@@ -1,0 +1,1 @@
+"""Parameters of many shapes, listed in the builder: conditions of parameters are the author's code."""

@@ -1,0 +1,4 @@
+/** Parameters at a glance. */
+export function ParametersView() {
+  return null;
+}
