@@ -13,6 +13,7 @@ from studio_browser import Visit, chromium, missing
 from studio_client import PROCEDURE, Studio, ready, studio
 
 MEANING = "How high the top lies."
+NOTHING = {"up": None, "front": None, "unit": None, "split": None}
 FIELD = ".told select[aria-label='{}']"
 
 
@@ -46,8 +47,8 @@ def ups(running: Studio) -> list[str]:
 
 def test_references_stand_as_told_at_once_and_in_the_next_fit_until_that_is_taken_back(running: Studio) -> None:
     first, before = running.get("/api/references/box-1"), picture(running, "box-1")
-    assert first["told"] == {"up": None, "front": None, "split": None}
-    told = {"up": "z", "front": None, "split": None}
+    assert first["told"] == NOTHING
+    told = {**NOTHING, "up": "z"}
     running.send("PATCH", "/api/references", {"slugs": ["box-1", "box-2"], "told": told})
     assert picture(running, "box-1") != before
     turned = running.get("/api/references/box-1")
@@ -85,9 +86,7 @@ def test_an_author_says_which_axis_points_up_of_one_and_of_all_that_are_shown(ru
         for field in ("Up", "Objects"):
             visit.until(f"document.querySelector(\"{FIELD.format(field)}\").value !== 'as all'")
             page.select_option(FIELD.format(field), "as all")
-        running.wait_for(
-            lambda s: running.get("/api/references/box-1")["told"] == {"up": None, "front": None, "split": None}
-        )
+        running.wait_for(lambda s: running.get("/api/references/box-1")["told"] == NOTHING)
         assert ups(running) == ["y", "z", "z"]
         visit.end()
 

@@ -29,21 +29,27 @@ class Tables:
 
 
 def with_cells(text: str, file: str, cells: Mapping[str, str]) -> str:
-    """The text of a table with these cells in the line of a file; an empty cell says nothing.
+    """The text of a table with these cells in the line of a file, see ``with_lines``."""
+    return with_lines(text, {file: cells})
 
-    Columns and a line are added where they are missing. A line that says nothing any more goes; without lines the text
-    is empty.
+
+def with_lines(text: str, told: Mapping[str, Mapping[str, str]]) -> str:
+    """The text of a table with cells in the lines of files; an empty cell says nothing.
+
+    told: cells by column, by the file's name. Columns and lines are added where they are missing. A line that says
+    nothing any more goes; without lines the text is empty.
     """
     separator = max(",;\t", key=text.partition("\n")[0].count) if text else ","
     lines = [line for line in csv.reader(io.StringIO(text.lstrip("\ufeff"), newline=""), delimiter=separator) if line]
     columns = [cell.strip().lower() for cell in lines[0]] if lines else ["path"]
-    columns += [name for name in cells if name not in columns]
+    columns += [
+        name for name in dict.fromkeys(name for cells in told.values() for name in cells) if name not in columns
+    ]
     rows = [dict(zip(columns, line, strict=False)) for line in lines[1:]]
-    if not any(row.get("path", "").strip() == file for row in rows):
-        rows.append({"path": file})
+    listed = {row.get("path", "").strip() for row in rows}
+    rows += [{"path": file} for file in told if file not in listed]
     for row in rows:
-        if row.get("path", "").strip() == file:
-            row.update(cells)
+        row.update(told.get(row.get("path", "").strip(), {}))
     kept = [row for row in rows if any(value.strip() for name, value in row.items() if name != "path")]
     written = io.StringIO()
     out = csv.DictWriter(written, columns, restval="", delimiter=separator, lineterminator="\n")

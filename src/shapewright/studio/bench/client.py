@@ -6,9 +6,19 @@ import asyncio
 import itertools
 import time
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any
 
-from shapewright.studio.bench.messages import Answer, Answered, Fetch, LiveMessage, News, Ready, Reply, Request
+from shapewright.studio.bench.messages import (
+    Answer,
+    Answered,
+    Fetch,
+    FetchKind,
+    LiveMessage,
+    News,
+    Ready,
+    Reply,
+    Request,
+)
 from shapewright.studio.project.workspace import Missing
 from shapewright.studio.wire.changes import BenchState
 from shapewright.studio.wire.child import Child, Frame, on_this_loop
@@ -87,7 +97,7 @@ class BenchProcess:
         if self._child:
             self._child.send(request)
 
-    async def fetch(self, slug: Slug, what: Literal["about", "shape", "render"], **details: Any) -> tuple[Any, bytes]:
+    async def fetch(self, slug: Slug, what: FetchKind, **details: Any) -> tuple[Any, bytes]:
         """A message about a reference, and a payload; details: see Fetch.
 
         Raises BenchError, Missing where there is no such thing.

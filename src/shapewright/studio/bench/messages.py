@@ -16,10 +16,12 @@ from shapewright.studio.wire.answers import (
     FailedMessage,
     VerdictMessage,
 )
-from shapewright.studio.wire.collection import Axes, Parameter
+from shapewright.studio.wire.collection import Axes, Duplicate, Parameter
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.requests import Evaluate, Explore
 from shapewright.studio.wire.values import Slug, Values
+
+FetchKind: TypeAlias = Literal["about", "shape", "render", "alike", "map"]
 
 
 class BenchMessage(Struct, frozen=True, kw_only=True, tag_field="type", tag=str.lower):
@@ -83,7 +85,7 @@ class Fetch(BenchMessage, frozen=True):
 
     request: int  # number that the reply carries
     slug: Slug
-    what: Literal["about", "shape", "render"]
+    what: FetchKind  # a map is of all references, and size is its seed
     parameters: Values | None = None
     azimuth: float = 0.0
     elevation: float = 0.0
@@ -113,6 +115,12 @@ class Parted(BenchMessage, frozen=True):
 
     slug: Slug
     names: list[str]
+
+
+class Alike(BenchMessage, frozen=True):
+    """All references were looked at."""
+
+    duplicates: list[Duplicate]
 
 
 class Unreadable(BenchMessage, frozen=True):
@@ -183,6 +191,6 @@ class Reply(BenchMessage, frozen=True):
     error: str | None = None  # there is no such thing
 
 
-News: TypeAlias = Drawn | Parted | Unreadable | Loaded | Unusable | Swept | Measured | SweepEnded
+News: TypeAlias = Drawn | Parted | Alike | Unreadable | Loaded | Unusable | Swept | Measured | SweepEnded
 """What is for the session."""
 Answer: TypeAlias = Ready | Answered | Reply | News

@@ -21,7 +21,7 @@ from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
 from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.studio.bench import messages, shape_messages
-from shapewright.studio.bench.exploring.exploration import Exploration
+from shapewright.studio.bench.exploring.overview import Overview
 from shapewright.studio.bench.gallery import Gallery, Stance
 from shapewright.studio.bench.inbox import Inbox
 from shapewright.studio.bench.residual_colours import ResidualColours
@@ -34,9 +34,11 @@ from shapewright.studio.wire.answers import DrawingMessage, FailedMessage
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.detail import About
 from shapewright.studio.wire.problems import Problem, of_failure
-from shapewright.studio.wire.requests import Evaluate, Explore
+from shapewright.studio.wire.requests import Evaluate
 from shapewright.studio.wire.values import Slug, Values
 
+_LOOKS = "looks"
+"""The task that waits for all others."""
 _EXPLORED = "explored"
 """How the names of tasks begin that show a page shapes without references."""
 
@@ -57,6 +59,7 @@ class Bench:
         self._wanted: dict[Slug, None] = {}  # of which the pictures are still to be drawn
         self._tasks: dict[str, Iterator[None]] = {}
         self._standing = Standing()
+        self._overview = Overview(workshop, self._send)
 
     def run(self) -> None:
         """Serve; tasks are moved on while no request waits."""
@@ -65,7 +68,7 @@ class Bench:
             request = self._inbox.take(wait=not self._tasks)
             match request:
                 case None:
-                    self._advance(next(iter(self._tasks)))
+                    self._advance(next((name for name in self._tasks if name != _LOOKS), _LOOKS))
                 case messages.References():
                     self._list(request)
                 case messages.Pictures():
@@ -79,7 +82,11 @@ class Bench:
                 case messages.Live():
                     self._evaluate(request.client, request.evaluate)
                 case messages.Exploring():
-                    self._explore(request.client, request.order)
+                    if self._workshop.open:
+                        self._begin(f"{_EXPLORED} {request.client}", self._overview.explore(request, self._root))
+                case messages.Fetch(what="map" | "alike"):
+                    answered = self._overview.map if request.what == "map" else self._overview.alike
+                    self._begin(f"{request.what} {request.request}", answered(request))
                 case messages.Fetch():
                     self._fetch(request)
                 case messages.End():
@@ -111,6 +118,7 @@ class Bench:
         self._wanted = {}
         self._begin("axes", self._find_axes())
         self._begin("objects", self._split())
+        self._tasks[_LOOKS] = self._overview.look(lambda: self._references, self._cache)
 
     def _split(self) -> Iterator[None]:
         for slug in self._gallery.listed.whole:
@@ -129,6 +137,7 @@ class Bench:
         self._gallery = Gallery(before.listed, self._cache, self._readers, facts, stances)
         self._targets = self._new_targets()
         changed = [slug for slug in before.listed.sources if stances.get(slug) != before.stances.get(slug)]
+        self._tasks[_LOOKS] = self._overview.look(lambda: self._references, self._cache)
         self._want(before.listed.sources if facts.up != before.facts.up else changed)
 
     def _begin(self, name: str, task: Iterator[None]) -> None:
@@ -242,13 +251,6 @@ class Bench:
             self._colours = ResidualColours(target.shape)
         for side, residual in self._colours.of(replica).items():
             answer(None, shape_messages.residual_message(residual, id=number, slug=slug, shape=side))
-
-    def _explore(self, client: int, order: Explore) -> None:
-        def answer(message: messages.LiveMessage, payload: bytes) -> None:
-            self._send(messages.Answered(client=client, message=message), payload)
-
-        if self._workshop.open:
-            self._begin(f"{_EXPLORED} {client}", Exploration(order, self._root, self._workshop, answer).run())
 
     def _fetch(self, request: messages.Fetch) -> None:
         message: About | DrawingMessage | None = None

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import cast
+from typing import TypeVar, cast
 
+from shapewright.procedures.facts import Unit
 from shapewright.references.errors import CollectionError
-from shapewright.references.manifests.folder_tables import TABLE, Tables, with_cells
+from shapewright.references.manifests.folder_tables import TABLE, Tables, with_lines
 from shapewright.references.orientation import Orientation
 from shapewright.references.sources import MANIFEST, Source
 from shapewright.storage import write_file
@@ -15,27 +16,40 @@ from shapewright.studio.project.workspace import Project, ProjectError
 from shapewright.studio.wire.detail import Told
 from shapewright.studio.wire.values import Axis
 
+Key = TypeVar("Key")
+
 
 def told(source: Source) -> Told:
     """What the table of its folder says of a reference. Raises CollectionError."""
-    row = Tables().row(source.path)
+    return _told(source, Tables())
+
+
+def told_of(sources: Mapping[Key, Source]) -> dict[Key, Told]:
+    """The same of several; each table is read once. Raises CollectionError."""
+    tables = Tables()
+    return {key: _told(source, tables) for key, source in sources.items()}
+
+
+def _told(source: Source, tables: Tables) -> Told:
+    row = tables.row(source.path)
     if row is None:
         return Told()
-    up, front = (row.cells.get(axis, "").lower().removeprefix("+") for axis in ("up", "front"))
-    return Told(up=cast(Axis, up or None), front=cast(Axis, front or None), split=row.switches.split)
+    up, front, unit = (row.cells.get(word, "").lower().removeprefix("+") or None for word in ("up", "front", "unit"))
+    return Told(up=cast(Axis, up), front=cast(Axis, front), unit=cast(Unit, unit), split=row.switches.split)
 
 
-def tell(project: Project, sources: Iterable[Source], told: Told) -> None:
+def tell(project: Project, told: Iterable[tuple[Source, Told]]) -> None:
     """Write it into the tables of their folders, in place of what was told before.
 
     Raises ProjectError where that cannot be; then nothing is written.
     """
-    texts: dict[Path, str] = {}
-    for source in sources:
-        table = _table(project, source, told)
-        before = texts[table] if table in texts else table.read_text("utf-8") if table.is_file() else ""
-        cells = {"up": told.up or "", "front": told.front or "", "split": told.split or ""}
-        texts[table] = with_cells(before, source.path.name, cells)
+    lines: dict[Path, dict[str, dict[str, str]]] = {}
+    for source, said in told:
+        cells: dict[str, str] = {"up": said.up or "", "front": said.front or "", "split": said.split or ""}
+        if said.unit or _told(source, Tables()).unit:
+            cells["unit"] = said.unit or ""
+        lines.setdefault(_table(project, source, said), {})[source.path.name] = cells
+    texts = {table: with_lines(table.read_text("utf-8") if table.is_file() else "", of) for table, of in lines.items()}
     for table, text in texts.items():
         try:
             write_file(table, text) if text else table.unlink(missing_ok=True)

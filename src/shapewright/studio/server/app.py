@@ -18,10 +18,12 @@ from starlette.responses import FileResponse, HTMLResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import RunError
 from shapewright.studio.bench.client import BenchError
 from shapewright.studio.project.workspace import Conflict, Missing, ProjectError
 from shapewright.studio.server import routes as api
+from shapewright.studio.server.collection_routes import collection_routes
 from shapewright.studio.server.security import PROTOCOL, Access, Guard
 from shapewright.studio.session.job_list import Refused
 from shapewright.studio.session.pages import Page
@@ -70,6 +72,7 @@ def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
         Route("/", index),
         Route("/assets/{path:path}", asset),
         WebSocketRoute("/api/live", partial(_converse, session)),
+        *collection_routes(session),
         *api.routes(session),
     ]
     failures: dict[Any, Any] = {
@@ -77,6 +80,7 @@ def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
         Conflict: _failure(409, "text", "digest"),
         Refused: _failure(409),
         ProjectError: _failure(409),
+        CollectionError: _failure(409),
         RunError: _failure(404),
         Missing: _failure(404),
         BenchError: _failure(503),

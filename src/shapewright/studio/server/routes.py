@@ -21,7 +21,7 @@ from shapewright.studio.session.session import Session
 from shapewright.studio.wire import requests
 from shapewright.studio.wire.changes import ChosenSettings
 from shapewright.studio.wire.detail import About
-from shapewright.studio.wire.revisions import RevisionDetail, Writer
+from shapewright.studio.wire.revisions import RevisionDetail, ToldAnswer, Writer
 from shapewright.studio.wire.values import Slug, encode
 from shapewright.studio.wire.work import Comparison
 
@@ -37,19 +37,6 @@ _PICTURES = {".png": "image/png", ".svg": "image/svg+xml", ".glb": "model/gltf-b
 def routes(session: Session) -> list[Route]:
     """All of them."""
     project, jobs = session.project, session.jobs
-
-    def api(path: str, answer: Callable[..., Any], method: str = "GET", body: Any = None) -> Route:
-        """``answer`` gets the request, and its body where that is of a type; what it returns is sent, None with 202."""
-
-        async def endpoint(request: Request) -> Response:
-            content = answer(request, *([requests.decode(await request.body(), body)] if body else []))
-            if inspect.isawaitable(content):
-                content = await content
-            if isinstance(content, Response):
-                return content
-            return json_response(content, 202 if content is None else 200)
-
-        return Route(f"/api/{path}", endpoint, methods=[method])
 
     return [
         api("state", lambda _: session.state()),
@@ -79,6 +66,20 @@ def routes(session: Session) -> list[Route]:
         api("explanation", lambda _: queries.explanation(session)),
         api("suggestions/{index:int}/apply", partial(_apply, session), "POST", requests.ApplyOrder),
     ]
+
+
+def api(path: str, answer: Callable[..., Any], method: str = "GET", body: Any = None) -> Route:
+    """``answer`` gets the request, and its body where that is of a type; what it returns is sent, None with 202."""
+
+    async def endpoint(request: Request) -> Response:
+        content = answer(request, *([requests.decode(await request.body(), body)] if body else []))
+        if inspect.isawaitable(content):
+            content = await content
+        if isinstance(content, Response):
+            return content
+        return json_response(content, 202 if content is None else 200)
+
+    return Route(f"/api/{path}", endpoint, methods=[method])
 
 
 def json_response(content: Any, status: int = 200) -> Response:
@@ -174,10 +175,9 @@ def _mark(session: Session, request: Request, order: requests.MarkOrder) -> dict
     return {}
 
 
-def _tell(session: Session, request: Request, order: requests.TellOrder) -> dict[str, Any]:
+def _tell(session: Session, request: Request, order: requests.TellOrder) -> ToldAnswer:
     requests.check_known(order.slugs, session.display.board.references)
-    session.tell(order.slugs, order.told)
-    return {}
+    return ToldAnswer(number=session.curation.tell(dict.fromkeys(order.slugs, order.told)))
 
 
 def _restore(project: Project, request: Request, order: requests.RestoreOrder) -> requests.Replaced:

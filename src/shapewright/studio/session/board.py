@@ -87,6 +87,7 @@ class Board:
     standard: Standard = field(default_factory=lambda: Standard.of(Settings(), 3))
     skipped: Mapping[str, str] = field(default_factory=dict)  # files that cannot be read, and why
     version: str | None = None  # of the procedure on disk; None for one that cannot be used
+    left_out: frozenset[str] = frozenset()  # names of the references that do not count
 
     @property
     def stale(self) -> bool:
@@ -108,6 +109,7 @@ class Board:
         """As the page gets it."""
         tiles = [state.tile(self.standard, self.version) for state in self.references.values()]
         settings, metric = self.standard.settings, self.standard.metric
+        counting = [tile for tile in tiles if tile.name not in self.left_out]
         return Collection(
             run=self.run,
             judge=settings.judge,
@@ -116,8 +118,9 @@ class Board:
             threshold=metric.threshold,
             measure=metric.name,
             criterion=metric.criterion,
-            count=len(tiles),
-            counts=counted((tile.grade, tile.compatible) for tile in tiles),
+            count=len(counting),
+            counts=counted((tile.grade, tile.compatible) for tile in counting),
+            left_out=[tile.slug for tile in tiles if tile.name in self.left_out],
             tiles=tiles,
             groups=list(self.groups),
             skipped=[Skipped(path=path, reason=reason) for path, reason in self.skipped.items()],

@@ -67,6 +67,7 @@ class Display:
         self._parts: dict[str, list[str]] = {}  # names of the objects in files, by version
         self._found: dict[Slug, Axes] = {}  # axes that the bench told of last
         self._unreadable: dict[str, tuple[str, str]] = {}
+        self._left_out: frozenset[str] = frozenset()
 
     def relist(self) -> None:
         """Look for references again, to be shown by ``show``. Raises CollectionError when there are none."""
@@ -184,8 +185,14 @@ class Display:
         record = read_record(run)
         return self.board.version if self._is_of_version(run, record) else f"run of {record['procedure']['digest']}"
 
+    def leave_out(self, names: frozenset[str]) -> None:
+        """These references do not count from now on, and all others do."""
+        self._left_out, before = names, self._left_out
+        if names != before:
+            self._put_up(self.board)
+
     def _put_up(self, board: Board) -> None:
-        self.board = board
+        board = self.board = replace(board, left_out=self._left_out)
         self.pages.publish(CollectionChanged(collection=board.collection()))
 
     def begin_sweep(self, stage: Stage, slugs: list[Slug]) -> int:
@@ -267,11 +274,10 @@ class Display:
         self._dirty.add(slug)
 
     def _flush(self) -> None:
-        states = [self.board.references[slug] for slug in sorted(self._dirty) if slug in self.board.references]
+        board = self.board
+        states = [board.references[slug] for slug in sorted(self._dirty) if slug in board.references]
         self._dirty.clear()
-        self.pages.publish(
-            TilesChanged(tiles=[state.tile(self.board.standard, self.board.version) for state in states])
-        )
+        self.pages.publish(TilesChanged(tiles=[state.tile(board.standard, board.version) for state in states]))
         self._report_problems()
 
     def _report_problems(self) -> None:

@@ -8,7 +8,9 @@ from shapewright.studio.session.pages import Pages
 from shapewright.studio.wire.changes import ProblemsChanged
 from shapewright.studio.wire.problems import Problem
 
-Origin: TypeAlias = Literal["bench", "project", "procedure", "references", "fit", "explain", "export", "shapes"]
+Origin: TypeAlias = Literal[
+    "bench", "project", "notes", "procedure", "references", "fit", "explain", "export", "shapes"
+]
 """Where problems come from, the worst first."""
 
 

@@ -53,9 +53,11 @@ def run_detail(session: Session, name: str) -> RunDetail:
     """A whole run. Raises Missing for a run that is not there."""
     folder = session.project.run(name)
     record = read_record(folder)
+    board = session.display.laid_out(folder, session.standard)
     return RunDetail(
         run=next(run for run in session.runs() if run.run == name),
-        collection=session.display.laid_out(folder, session.standard).collection(),
+        collection=board.collection(),
+        values=board.parameters,
         source=source_of(folder),
         parameters=msgspec.convert(record["procedure"]["parameters"], list[Parameter]),
         settings=record["settings"],

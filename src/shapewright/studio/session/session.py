@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -14,11 +15,11 @@ from shapewright.studio.bench import messages
 from shapewright.studio.bench.client import BenchError
 from shapewright.studio.project.authored import Authored
 from shapewright.studio.project.preferences import Preferences
-from shapewright.studio.project.telling import tell
 from shapewright.studio.project.watch import watch
-from shapewright.studio.project.workspace import Project, ProjectError
+from shapewright.studio.project.workspace import Missing, Project, ProjectError
 from shapewright.studio.session.bench_link import BenchLink
 from shapewright.studio.session.choices import Choices
+from shapewright.studio.session.curating.curation import Curation
 from shapewright.studio.session.display import Display
 from shapewright.studio.session.history import summaries
 from shapewright.studio.session.job_list import JobList, Refused
@@ -26,8 +27,7 @@ from shapewright.studio.session.pages import Page, Pages
 from shapewright.studio.session.problem_list import ProblemList
 from shapewright.studio.session.standard import Standard
 from shapewright.studio.wire import changes
-from shapewright.studio.wire.collection import Procedure
-from shapewright.studio.wire.detail import Told
+from shapewright.studio.wire.collection import Duplicate, Procedure
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Slug
 from shapewright.studio.wire.work import Job, Run
@@ -44,10 +44,12 @@ class Session:
         self.project = project
         self.pages = Pages()
         self.problems = ProblemList(self.pages)
+        self.duplicates: list[Duplicate] = []
         self.authored = Authored(project)
         self.display = Display(project, self.pages, cache_folder(), partial(self.problems.report, "shapes"))
         self.bench = BenchLink(project, self.authored, self.display, self.pages, self._heard, self._bench_changed)
         self.choices = Choices(project, preferences, self.display, self.pages, self.problems, self._measure_anew)
+        self.curation = Curation(project, self.display, self.bench, self.pages, self.problems, self.references_changed)
         self.jobs = JobList(project, self.display, self.bench, self.pages, self._job_ended)
 
     async def run(self) -> None:
@@ -56,6 +58,7 @@ class Session:
         self._read_source(saved=False)
         self.display.show(self.display.newest(of_version=True) or self.display.newest(), self.standard)
         self.choices.open()
+        self.curation.open()
         try:
             async with asyncio.TaskGroup() as group:
                 group.create_task(self._keep_bench())
@@ -90,6 +93,8 @@ class Session:
             runs=self.runs(),
             settings=self.choices.preferences.message(),
             marking=self.choices.marking(),
+            noted=self.curation.noted(),
+            duplicates=self.duplicates,
             explanation=self.explained,
             problems=self.problems.all,
         )
@@ -119,16 +124,19 @@ class Session:
         self.pages.close(page)
         self.bench.forget(page.number)
 
-    def tell(self, slugs: list[Slug], told: Told) -> None:
-        """What the author says of references; all slugs are known. They stand so at once. Raises ProjectError."""
-        tell(self.project, [self.display.listed.sources[slug] for slug in slugs], told)
-        self.references_changed()
+    def known(self, slug: str) -> Slug:
+        """Raises Missing for a reference that is not there."""
+        if slug not in self.display.board.references:
+            raise Missing(f"there is no reference {slug!r}")
+        return slug
 
     async def fit(self, fresh: bool = False) -> None:
         """Start a fit; one that runs is ended first. Raises Refused."""
         if self.authored.state == "broken":
             raise Refused("the procedure cannot be used; mend it first")
-        await self.jobs.fit(self.choices.settings, fresh or self.choices.preferences.fresh)
+        settings = self.choices.settings
+        patterns = [*settings.patterns, *self.curation.patterns]
+        await self.jobs.fit(replace(settings, leave_out=", ".join(patterns)), fresh or self.choices.preferences.fresh)
 
     # What happens on disk
 
@@ -205,6 +213,9 @@ class Session:
             case messages.Loaded():
                 if message.load == self.authored.load:
                     self._take_version(message)
+            case messages.Alike():
+                self.duplicates = message.duplicates
+                self.pages.publish(changes.DuplicatesChanged(duplicates=self.duplicates))
             case messages.Unusable():
                 if message.load in (None, self.authored.load):
                     self._break(message.problem)

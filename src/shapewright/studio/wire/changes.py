@@ -7,10 +7,11 @@ from typing import Annotated, Literal, TypeAlias
 from msgspec import Meta, Struct
 
 from shapewright.settings import Facing, Preset, Refine
-from shapewright.studio.wire.collection import Collection, Procedure, Tile
+from shapewright.studio.wire.collection import Collection, Duplicate, Procedure, Tile
 from shapewright.studio.wire.judgement import Judge, Marking
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.values import Message
+from shapewright.studio.wire.revisions import Noted
+from shapewright.studio.wire.values import Message, Slug
 from shapewright.studio.wire.work import Job, JobKind, Run
 
 BenchState: TypeAlias = Literal["starting", "ready", "restarting"]
@@ -60,6 +61,8 @@ class State(Message, frozen=True, kw_only=True, tag="state"):
     runs: list[Run]  # the oldest first
     settings: ChosenSettings
     marking: Marking
+    noted: dict[Slug, Noted]  # of the references of which something is noted
+    duplicates: list[Duplicate]  # known so far
     explanation: bool  # the run that is shown has one
     problems: list[Problem]  # of the whole project, the worst first; empty when all is well
 
@@ -100,6 +103,18 @@ class MarksChanged(Message, frozen=True, kw_only=True, tag="marks"):
     marking: Marking
 
 
+class NotedChanged(Message, frozen=True, kw_only=True, tag="noted"):
+    """Replaces ``State.noted``."""
+
+    noted: dict[Slug, Noted]
+
+
+class DuplicatesChanged(Message, frozen=True, kw_only=True, tag="duplicates"):
+    """Replaces ``State.duplicates``."""
+
+    duplicates: list[Duplicate]
+
+
 class SettingsChanged(Message, frozen=True, kw_only=True, tag="settings"):
     """Replaces ``State.settings``."""
 
@@ -132,6 +147,8 @@ Change: TypeAlias = Annotated[
     | JobChanged
     | RunsChanged
     | MarksChanged
+    | NotedChanged
+    | DuplicatesChanged
     | SettingsChanged
     | ProblemsChanged
     | ExplanationChanged

@@ -58,6 +58,15 @@ class Skipped(Struct, frozen=True, kw_only=True):
     reason: str
 
 
+class Duplicate(Struct, frozen=True, kw_only=True):
+    """A reference that is like one before it."""
+
+    slug: Slug
+    of: Slug  # the one before it, which is no duplicate itself
+    equal: bool  # it is the same shape but for size, place and format; else it only looks nearly the same
+    quarters: int  # quarter turns about the up axis that bring it into the pose of the other
+
+
 class Collection(Struct, frozen=True, kw_only=True):
     """All references."""
 
@@ -68,8 +77,9 @@ class Collection(Struct, frozen=True, kw_only=True):
     threshold: float  # the largest distance of a compatible one
     measure: str  # what distances are
     criterion: str  # when a replica is compatible, in words
-    count: int  # of all references
-    counts: Counts
+    count: int  # of all references but those that are left out
+    counts: Counts  # of these
+    left_out: list[Slug]  # the author says that they are not his
     tiles: list[Tile]  # in natural order of names
     groups: list[Group]  # the largest first
     skipped: list[Skipped]

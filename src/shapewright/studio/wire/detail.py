@@ -10,8 +10,9 @@ from typing import Any, Literal, NotRequired, TypedDict
 
 from msgspec import Struct
 
+from shapewright.procedures.facts import Unit
 from shapewright.studio.wire.collection import Stage
-from shapewright.studio.wire.judgement import Judged, Measures, Piece, Pose
+from shapewright.studio.wire.judgement import Grade, Judged, Measures, Piece, Pose
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Address, Axis, Slug, Values, Vector
 
@@ -38,6 +39,7 @@ class Told(Struct, frozen=True, kw_only=True):
 
     up: Axis | None = None  # that points up in it
     front: Axis | None = None  # that points to the front
+    unit: Unit | None = None  # of its lengths
     split: Literal["off", "apart", "names"] | None = None  # which objects in it the next fit takes as references
 
 
@@ -140,6 +142,63 @@ class Explanation(TypedDict):
     sample: NotRequired[ExplainedSample]  # where only some were looked at
     tried: NotRequired[list[Tried]]
     seconds: NotRequired[dict[str, float]]  # by stage
+
+
+class ParameterRow(Struct, frozen=True, kw_only=True):
+    """The parameters of one replica."""
+
+    slug: Slug
+    parameters: Values
+    active: list[str]  # names of those that matter
+
+
+class ParameterTable(Struct, frozen=True, kw_only=True):
+    """The parameters of all replicas that are shown."""
+
+    run: str | None  # the run that is shown
+    rows: list[ParameterRow]
+    validation: dict[str, dict[str, float | str | None]]  # how well each parameter is predicted, on held-out samples
+    samples: int | None  # from which the network of this run learned
+
+
+class MappedReference(Struct, frozen=True, kw_only=True):
+    """A reference on the map."""
+
+    slug: Slug
+    x: float  # -1 to 1
+    y: float
+
+
+class MappedSample(Struct, frozen=True, kw_only=True):
+    """A random shape of the procedure on the map."""
+
+    parameters: Values
+    x: float
+    y: float
+
+
+class CollectionMap(Struct, frozen=True, kw_only=True):
+    """References and random shapes of the procedure; alike ones are near each other."""
+
+    references: list[MappedReference]
+    samples: list[MappedSample]
+    left: int  # references that are not looked at yet
+
+
+class Step(Struct, frozen=True, kw_only=True):
+    """One reference in one run."""
+
+    run: str
+    created: str  # date and time, ISO 8601
+    procedure: str  # digest of its text
+    replica: Address | None
+    fidelity: float | None
+    distance: float | None
+    grade: Grade  # by the run's own judge and cuts
+    colour: str | None
+    parameters: Values | None
+    active: list[str]
+    error: str | None
 
 
 class Reference(Judged, frozen=True, kw_only=True):

@@ -19,6 +19,11 @@ MOST_SHAPES = 100
 """More do not fit on a screen."""
 MOST_SEED = 2**53
 """More are no whole numbers in a browser."""
+MOST_LETTERS = 4000
+"""Of a note."""
+Tag: TypeAlias = Annotated[str, Meta(min_length=1, max_length=40, pattern=r"^[^\s,](?:[^\x00-\x1f,]*[^\s,])?$")]
+Turn: TypeAlias = Annotated[Literal["around", "tip", "over"], Meta(title="Turn")]
+"""A quarter turn about the up axis, a quarter turn towards the front, or upside down."""
 Part: TypeAlias = Annotated[Literal["replicas", "samples", "report", "parameters"], Meta(title="Part")]
 Frame: TypeAlias = Annotated[Literal["procedure", "reference"], Meta(title="Frame")]
 """Axes, units and place: as the procedure builds, or of the reference's file, over which the replica lies then."""
@@ -101,6 +106,23 @@ class TellOrder(Order, frozen=True):
     told: Told
 
 
+class NoteOrder(Order, frozen=True):
+    """Note something of references; what it does not name stays."""
+
+    slugs: Annotated[list[Slug], Meta(min_length=1)]
+    add: list[Tag] = []  # tags
+    remove: list[Tag] = []  # tags
+    note: Annotated[str, Meta(max_length=MOST_LETTERS)] | None = None  # empty for none
+    not_mine: bool | None = None
+
+
+class TurnOrder(Order, frozen=True):
+    """Turn references by right angles, from how they stand now."""
+
+    slugs: Annotated[list[Slug], Meta(min_length=1)]
+    turn: Turn
+
+
 class MarkOrder(Order, frozen=True):
     """Mark a pair of references, or where ``a`` is ``b`` a reference and its own replica."""
 
@@ -166,7 +188,10 @@ _SHOULD: Mapping[Any, str] = {
     f"frame is one of {_words(Frame)}; "
     f"count lies between 1 and {MOST_SAMPLES}; seed is a whole number",
     TellOrder: "slugs is a list of references; told has up and front (x, -x, y, -y, z, -z or null) and split (off, "
-    "apart, names or null)",
+    "apart, names or null), and unit (mm, cm, m, in, ft or null)",
+    NoteOrder: "slugs is a list of references; add and remove are lists of tags of up to 40 letters without commas, "
+    f"note is a text of up to {MOST_LETTERS} letters or null, not_mine is true, false or null",
+    TurnOrder: f"slugs is a list of references; turn is one of {_words(Turn)}",
     CancelOrder: f"kind is one of {_words(JobKind)}",
     RestoreOrder: "digest is a string or null",
     ApplyOrder: "to is copy or procedure, digest is a string or null",

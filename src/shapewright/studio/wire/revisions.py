@@ -1,4 +1,4 @@
-"""Writes of the procedure's text, which can be undone."""
+"""What the author writes and says, which can be undone: the procedure's text, and notes of references."""
 
 from __future__ import annotations
 
@@ -30,3 +30,34 @@ class RevisionDetail(Struct, frozen=True, kw_only=True):
 
     revision: Revision
     diff: list[DiffLine]  # whole
+
+
+class Noted(Struct, frozen=True, kw_only=True):
+    """What the author notes of one reference."""
+
+    tags: list[str] = []
+    note: str = ""
+    not_mine: bool = False  # no part of the collection: it leaves the count, and the next fit does without it
+
+
+ToldKind: TypeAlias = Annotated[Literal["tags", "note", "not mine", "file"], Meta(title="ToldKind")]
+"""What was told; file: how it stands, its unit, and what it holds."""
+
+
+class ToldChange(Struct, frozen=True, kw_only=True):
+    """One change of what is told of references."""
+
+    number: int  # from 1, the oldest
+    written: str  # date and time, ISO 8601, UTC
+    kind: ToldKind
+    references: list[str]  # names
+    added: list[str]  # tags
+    removed: list[str]  # tags
+    undoes: int | None  # number of the change that this one took back
+    undone: bool  # a later one took it back
+
+
+class ToldAnswer(Struct, frozen=True, kw_only=True):
+    """Something was told of references."""
+
+    number: int | None  # of the change, which can be undone; null where nothing changed

@@ -10,7 +10,7 @@ from shapewright.progress import AnswerKind
 from shapewright.studio.wire.collection import Collection, Parameter
 from shapewright.studio.wire.judgement import Counts, Grade, Judge
 from shapewright.studio.wire.problems import Problem
-from shapewright.studio.wire.values import Address, Slug
+from shapewright.studio.wire.values import Address, Slug, Values
 
 JobKind: TypeAlias = Annotated[Literal["fit", "explain", "export"], Meta(title="JobKind")]
 JobState: TypeAlias = Annotated[
@@ -81,6 +81,7 @@ class RunDetail(Struct, frozen=True, kw_only=True):
 
     run: Run
     collection: Collection
+    values: dict[Slug, Values]  # parameters of its replicas
     source: str  # text of its procedure
     parameters: list[Parameter]
     settings: dict[str, Any]

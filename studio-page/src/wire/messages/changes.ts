@@ -1,9 +1,11 @@
 // Made from src/shapewright/studio/wire/changes.py by `python tools/message_types.py`.
 
-import type { Collection, Procedure, Tile } from "./collection";
+import type { Collection, Duplicate, Procedure, Tile } from "./collection";
 import type { Job, JobKind, Run } from "./work";
 import type { Judge, Marking } from "./judgement";
+import type { Noted } from "./revisions";
 import type { Problem } from "./problems";
+import type { Slug } from "./values";
 
 /** Of the author's project: its name, and where its parts are. */
 export interface ProjectNames {
@@ -51,6 +53,10 @@ export interface State {
   runs: Run[];
   settings: ChosenSettings;
   marking: Marking;
+  /** of the references of which something is noted. */
+  noted: Record<Slug, Noted>;
+  /** known so far. */
+  duplicates: Duplicate[];
   /** the run that is shown has one. */
   explanation: boolean;
   /** of the whole project, the worst first; empty when all is well. */
@@ -93,6 +99,18 @@ export interface MarksChanged {
   marking: Marking;
 }
 
+/** Replaces ``State.noted``. */
+export interface NotedChanged {
+  type: "noted";
+  noted: Record<Slug, Noted>;
+}
+
+/** Replaces ``State.duplicates``. */
+export interface DuplicatesChanged {
+  type: "duplicates";
+  duplicates: Duplicate[];
+}
+
 /** Replaces ``State.settings``. */
 export interface SettingsChanged {
   type: "settings";
@@ -117,4 +135,4 @@ export interface WrongMessage {
   error: string;
 }
 
-export type Change = State | ProcedureChanged | TilesChanged | CollectionChanged | JobChanged | RunsChanged | MarksChanged | SettingsChanged | ProblemsChanged | ExplanationChanged | WrongMessage;
+export type Change = State | ProcedureChanged | TilesChanged | CollectionChanged | JobChanged | RunsChanged | MarksChanged | NotedChanged | DuplicatesChanged | SettingsChanged | ProblemsChanged | ExplanationChanged | WrongMessage;

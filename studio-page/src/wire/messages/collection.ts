@@ -63,6 +63,17 @@ export interface Skipped {
   reason: string;
 }
 
+/** A reference that is like one before it. */
+export interface Duplicate {
+  slug: Slug;
+  /** the one before it, which is no duplicate itself. */
+  of: Slug;
+  /** it is the same shape but for size, place and format; else it only looks nearly the same. */
+  equal: boolean;
+  /** quarter turns about the up axis that bring it into the pose of the other. */
+  quarters: number;
+}
+
 /** All references. */
 export interface Collection {
   /** the run that is shown; null before the first. */
@@ -79,9 +90,12 @@ export interface Collection {
   measure: string;
   /** when a replica is compatible, in words. */
   criterion: string;
-  /** of all references. */
+  /** of all references but those that are left out. */
   count: number;
+  /** of these. */
   counts: Counts;
+  /** the author says that they are not his. */
+  left_out: Slug[];
   /** in natural order of names. */
   tiles: Tile[];
   /** the largest first. */

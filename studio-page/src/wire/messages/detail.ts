@@ -29,6 +29,8 @@ export interface Told {
   up: Axis | null;
   /** that points to the front. */
   front: Axis | null;
+  /** of its lengths. */
+  unit: "mm" | "cm" | "m" | "in" | "ft" | null;
   /** which objects in it the next fit takes as references. */
   split: "off" | "apart" | "names" | null;
 }
@@ -136,6 +138,66 @@ export interface Explanation {
   tried?: Tried[];
   /** by stage. */
   seconds?: Record<string, number>;
+}
+
+/** The parameters of one replica. */
+export interface ParameterRow {
+  slug: Slug;
+  parameters: Values;
+  /** names of those that matter. */
+  active: string[];
+}
+
+/** The parameters of all replicas that are shown. */
+export interface ParameterTable {
+  /** the run that is shown. */
+  run: string | null;
+  rows: ParameterRow[];
+  /** how well each parameter is predicted, on held-out samples. */
+  validation: Record<string, Record<string, number | string | null>>;
+  /** from which the network of this run learned. */
+  samples: number | null;
+}
+
+/** A reference on the map. */
+export interface MappedReference {
+  slug: Slug;
+  /** -1 to 1. */
+  x: number;
+  y: number;
+}
+
+/** A random shape of the procedure on the map. */
+export interface MappedSample {
+  parameters: Values;
+  x: number;
+  y: number;
+}
+
+/** References and random shapes of the procedure; alike ones are near each other. */
+export interface CollectionMap {
+  references: MappedReference[];
+  samples: MappedSample[];
+  /** references that are not looked at yet. */
+  left: number;
+}
+
+/** One reference in one run. */
+export interface Step {
+  run: string;
+  /** date and time, ISO 8601. */
+  created: string;
+  /** digest of its text. */
+  procedure: string;
+  replica: Address | null;
+  fidelity: number | null;
+  distance: number | null;
+  /** by the run's own judge and cuts. */
+  grade: Grade;
+  colour: string | null;
+  parameters: Values | null;
+  active: string[];
+  error: string | null;
 }
 
 /** One reference in full. */

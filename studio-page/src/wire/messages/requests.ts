@@ -4,6 +4,8 @@ import type { JobKind } from "./work";
 import type { Slug, Values } from "./values";
 import type { Told } from "./detail";
 
+export type Turn = "around" | "tip" | "over";
+
 export type Part = "replicas" | "samples" | "report" | "parameters";
 
 export type Frame = "procedure" | "reference";
@@ -85,6 +87,24 @@ export interface ExportOrder {
 export interface TellOrder {
   slugs: Slug[];
   told: Told;
+}
+
+/** Note something of references; what it does not name stays. */
+export interface NoteOrder {
+  slugs: Slug[];
+  /** tags. */
+  add?: string[];
+  /** tags. */
+  remove?: string[];
+  /** empty for none. */
+  note?: string | null;
+  not_mine?: boolean | null;
+}
+
+/** Turn references by right angles, from how they stand now. */
+export interface TurnOrder {
+  slugs: Slug[];
+  turn: Turn;
 }
 
 /** Mark a pair of references, or where ``a`` is ``b`` a reference and its own replica. */

@@ -29,3 +29,38 @@ export interface RevisionDetail {
   /** whole. */
   diff: DiffLine[];
 }
+
+/** What the author notes of one reference. */
+export interface Noted {
+  tags: string[];
+  note: string;
+  /** no part of the collection: it leaves the count, and the next fit does without it. */
+  not_mine: boolean;
+}
+
+export type ToldKind = "tags" | "note" | "not mine" | "file";
+
+/** One change of what is told of references. */
+export interface ToldChange {
+  /** from 1, the oldest. */
+  number: number;
+  /** date and time, ISO 8601, UTC. */
+  written: string;
+  kind: ToldKind;
+  /** names. */
+  references: string[];
+  /** tags. */
+  added: string[];
+  /** tags. */
+  removed: string[];
+  /** number of the change that this one took back. */
+  undoes: number | null;
+  /** a later one took it back. */
+  undone: boolean;
+}
+
+/** Something was told of references. */
+export interface ToldAnswer {
+  /** of the change, which can be undone; null where nothing changed. */
+  number: number | null;
+}

@@ -1,6 +1,6 @@
 // Made from src/shapewright/studio/wire/work.py by `python tools/message_types.py`.
 
-import type { Address, Slug } from "./values";
+import type { Address, Slug, Values } from "./values";
 import type { Collection, Parameter } from "./collection";
 import type { Counts, Grade, Judge } from "./judgement";
 import type { Problem } from "./problems";
@@ -81,6 +81,8 @@ export interface Run {
 export interface RunDetail {
   run: Run;
   collection: Collection;
+  /** parameters of its replicas. */
+  values: Record<Slug, Values>;
   /** text of its procedure. */
   source: string;
   parameters: Parameter[];

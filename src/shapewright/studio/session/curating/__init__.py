@@ -1,0 +1,1 @@
+"""What the author says of many references, and what is known of them together."""
