@@ -13,6 +13,7 @@ import "./styles/history.css";
 import "./styles/feedback.css";
 import "./styles/explore.css";
 import "./styles/parameters.css";
+import "./styles/curating.css";
 
 start();
 render(<App />, document.getElementById("page")!);

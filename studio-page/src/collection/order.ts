@@ -1,22 +1,28 @@
 /** Which tiles are shown, and in what order. */
 
 import { computed, signal } from "@preact/signals";
+import { selected } from "../curating/selection";
 import { gain, valueOf } from "../state/grades";
-import { collection, tiles } from "../state/studio";
+import { collection, duplicateOf, duplicates, leftOut, noted, tiles } from "../state/studio";
 import type { Grade, Slug, Tile } from "../wire/messages";
 import { at } from "./focus";
 
-export type Filter = "all" | Grade | "turned" | "longer" | "failed";
-export type Sort = "groups" | "worst" | "best" | "name" | "worse" | "better";
+export type Filter = "all" | Grade | "turned" | "longer" | "failed" | "duplicates" | "noted" | "selected";
+export type Sort = "groups" | "worst" | "best" | "name" | "worse" | "better" | "alike";
 
 export const filter = signal<Filter>("all");
 export const sort = signal<Sort>("groups");
 export const search = signal("");
+/** Only references with this tag; empty for all. */
+export const tag = signal("");
+/** How much others differ from one reference: by that they are sorted. */
+export const likeness = signal<{ slug: Slug; apart: Record<Slug, number> } | null>(null);
 export const openGroups = signal<ReadonlySet<Slug>>(new Set());
 export const replicatedOpen = signal(false);
+export const leftOutOpen = signal(false);
 
 export interface Section {
-  kind: "group" | "loose" | "replicated" | "all";
+  kind: "group" | "loose" | "replicated" | "all" | "left out";
   /** Representative first, in a group. */
   tiles: Tile[];
 }
@@ -30,6 +36,8 @@ const badness = (tile: Tile): number => {
 };
 /** How much better than in the run before; what cannot be said stands last. */
 const change = (tile: Tile): number | null => gain(collection.value.judge, tile.previous, value(tile));
+/** The reference itself comes first, and what was not looked at last. */
+const apart = ({ slug }: Tile): number => (slug === likeness.value?.slug ? -1 : (likeness.value?.apart[slug] ?? FAR));
 const byName = (a: Tile, b: Tile): number => a.name.localeCompare(b.name, undefined, { numeric: true });
 
 const ORDERS: Record<Exclude<Sort, "groups">, (a: Tile, b: Tile) => number> = {
@@ -37,8 +45,11 @@ const ORDERS: Record<Exclude<Sort, "groups">, (a: Tile, b: Tile) => number> = {
   best: (a, b) => badness(a) - badness(b) || byName(a, b),
   name: byName,
   worse: (a, b) => (change(a) ?? FAR) - (change(b) ?? FAR) || byName(a, b),
+  alike: (a, b) => apart(a) - apart(b) || byName(a, b),
   better: (a, b) => (change(b) ?? -FAR) - (change(a) ?? -FAR) || byName(a, b),
 };
+
+const originals = computed(() => new Set(duplicates.value.map(({ of }) => of)));
 
 const PASSES: Record<Filter, (tile: Tile) => boolean> = {
   all: () => true,
@@ -48,10 +59,13 @@ const PASSES: Record<Filter, (tile: Tile) => boolean> = {
   turned: (tile) => tile.pose !== null,
   longer: (tile) => tile.longer.length > 0,
   failed: (tile) => tile.problem !== null,
+  duplicates: ({ slug }) => duplicateOf.value.has(slug) || originals.value.has(slug),
+  noted: ({ slug }) => noted.value[slug] !== undefined,
+  selected: ({ slug }) => selected.value.has(slug),
 };
 
 export const counts = computed(() => {
-  const all = collection.value.tiles;
+  const all = collection.value.tiles.filter(({ slug }) => !leftOut.value.has(slug));
   return Object.fromEntries(
     Object.entries(PASSES).map(([name, passes]) => [name, all.filter(passes).length]),
   ) as Record<Filter, number>;
@@ -59,17 +73,32 @@ export const counts = computed(() => {
 
 const shown = computed(() => {
   const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
-  const found = (tile: Tile) => words.every((word) => tile.name.toLowerCase().includes(word));
-  return collection.value.tiles.filter((tile) => PASSES[filter.value](tile) && found(tile));
+  const told = ({ slug }: Tile) => [...(noted.value[slug]?.tags ?? []), noted.value[slug]?.note ?? ""].join(" ");
+  const found = (tile: Tile) => words.every((word) => `${tile.name} ${told(tile)}`.toLowerCase().includes(word));
+  const tagged = ({ slug }: Tile) => !tag.value || (noted.value[slug]?.tags.includes(tag.value) ?? false);
+  return collection.value.tiles.filter((tile) => PASSES[filter.value](tile) && tagged(tile) && found(tile));
+});
+/** Those of them that count. */
+export const shownTiles = computed(() => shown.value.filter(({ slug }) => !leftOut.value.has(slug)));
+const aside = computed((): Section[] => {
+  const out = shown.value.filter(({ slug }) => leftOut.value.has(slug)).sort(byName);
+  return out.length ? [{ kind: "left out", tiles: out }] : [];
 });
 
 /** A group keeps its members while a fit runs; one that another cut makes replicated leaves it. */
 const leaves = (tile: Tile): boolean => tile.stage === "trained" && tile.grade === "replicated";
 
+/** Of these one wants to see each, and not groups that stand for several. */
+const WHOLE: ReadonlySet<Filter> = new Set(["duplicates", "noted", "selected"]);
+
 /** Groups of misfits, then the loose ones, then the replicated; or one section in another order. */
 export const sections = computed((): Section[] => {
-  if (sort.value !== "groups") return [{ kind: "all", tiles: [...shown.value].sort(ORDERS[sort.value]) }];
-  const left = new Map(shown.value.map((tile) => [tile.slug, tile]));
+  if (sort.value !== "groups" || WHOLE.has(filter.value) || tag.value) {
+    const order = sort.value === "groups" ? byName : ORDERS[sort.value];
+    const tiles = [...shownTiles.value].sort(order);
+    return [...(tiles.length ? [{ kind: "all" as const, tiles }] : []), ...aside.value];
+  }
+  const left = new Map(shownTiles.value.map((tile) => [tile.slug, tile]));
   const take = (slugs: Slug[]): Tile[] =>
     slugs.flatMap((slug) => {
       const tile = left.get(slug);
@@ -88,6 +117,7 @@ export const sections = computed((): Section[] => {
     ...groups,
     { kind: "loose" as const, tiles: loose },
     { kind: "replicated" as const, tiles: replicated },
+    ...aside.value,
   ].filter((section) => section.tiles.length > 0);
 });
 

@@ -3,6 +3,8 @@
 import { useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
+import { Badges, Pick } from "../curating/badges";
+import { extend, toggle } from "../curating/selection";
 import { gain, NOTED, stands, valueOf } from "../state/grades";
 import { inspect } from "../state/route";
 import { collection } from "../state/studio";
@@ -11,7 +13,7 @@ import { fixed } from "../ui/numbers";
 import { GradeMark, Picture } from "../ui/picture";
 import type { Tile } from "../wire/messages";
 import { at } from "./focus";
-import { entry } from "./order";
+import { entry, leafed } from "./order";
 import { watch } from "./visible";
 
 const STAGES: Partial<Record<Tile["stage"], [string, string]>> = {
@@ -38,6 +40,7 @@ function Card({ tile, children }: Props) {
   const tabIndex = useComputed(() => (entry.value === slug ? 0 : -1));
   return (
     <article class={`tile ${tile.stale ? "stale" : ""}`}>
+      <Pick slug={slug} name={tile.name} order={() => leafed.value} />
       <button
         type="button"
         class="pair"
@@ -46,7 +49,11 @@ function Card({ tile, children }: Props) {
         tabIndex={tabIndex}
         aria-label={`${tile.name}, ${describe(tile)}`}
         onFocus={() => (at.value = tile.slug)}
-        onClick={() => inspect(tile.slug)}
+        onClick={(event) => {
+          if (event.shiftKey) extend(slug, leafed.value);
+          else if (event.ctrlKey || event.metaKey) toggle(slug);
+          else inspect(slug);
+        }}
       >
         <Picture url={tile.reference} tint={null} alt="reference" />
         <Picture url={tile.replica} tint={tile.colour} alt="replica" dim={tile.stale} />
@@ -55,6 +62,7 @@ function Card({ tile, children }: Props) {
         <span class="name" title={tile.name}>
           {tile.name}
         </span>
+        <Badges slug={slug} />
         {tile.problem && (
           <span class="badge bad" title={tile.problem.message}>
             <Icon name="warn" />

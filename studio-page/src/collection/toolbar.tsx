@@ -1,13 +1,14 @@
 /** Above the tiles: how many are replicated, what is shown, in what order. */
 
+import { signal } from "@preact/signals";
 import { createRef } from "preact";
-import { collection, unsure } from "../state/studio";
+import { collection, tags, tileOf, unsure } from "../state/studio";
 import { Segments, Select } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { percent } from "../ui/numbers";
 import { GradeMark } from "../ui/picture";
 import { focusOn } from "./focus";
-import { counts, filter, leafed, search, sort } from "./order";
+import { counts, filter, leafed, likeness, search, sort, tag } from "./order";
 import type { Filter, Sort } from "./order";
 import { Strip } from "./strip";
 
@@ -19,6 +20,9 @@ const FILTERS: { value: Filter; label: string; title: string }[] = [
   { value: "turned", label: "Stand another way", title: "Turned, on their heads or mirrored: the explanation says so" },
   { value: "longer", label: "Longer Range", title: "A longer Range would bring it nearer: the explanation says so" },
   { value: "failed", label: "Failed", title: "The procedure gave an error" },
+  { value: "duplicates", label: "Duplicates", title: "The same shape, or nearly, more than once" },
+  { value: "noted", label: "Noted", title: "With tags or a note" },
+  { value: "selected", label: "Selected", title: "What you selected" },
 ];
 const SORTS: { value: Sort; label: string }[] = [
   { value: "groups", label: "Groups, largest first" },
@@ -36,10 +40,42 @@ export function Toolbar() {
     <div class="toolbar">
       <Score />
       <Strip />
-      {collection.value.tiles.some(({ replica }) => replica) && <Filters />}
-      <Select label="Order" hidden options={SORTS} value={sort.value} onChange={(value) => (sort.value = value)} />
+      {FILTERS.some(({ value }) => value !== "all" && value !== "different" && counts.value[value] > 0) && <Filters />}
+      <TagFilter />
+      <Select label="Order" hidden options={sorts()} value={sort.value} onChange={(value) => (sort.value = value)} />
       <Search />
+      <Segments
+        label="Shown as"
+        value={mapped.value ? "map" : "tiles"}
+        onChange={(value) => (mapped.value = value === "map")}
+        options={[
+          { value: "tiles", label: "Tiles" },
+          { value: "map", label: "Map", title: "Alike ones near each other, and random shapes among them" },
+        ]}
+      />
     </div>
+  );
+}
+
+/** Whether the references are shown on a map. */
+export const mapped = signal(false);
+
+function sorts(): { value: Sort; label: string }[] {
+  const like = likeness.value && tileOf(likeness.value.slug);
+  return like ? [...SORTS, { value: "alike", label: `Like ${like.name}` }] : SORTS;
+}
+
+function TagFilter() {
+  if (!tags.value.size) return null;
+  const options = [...tags.value].map(([name, count]) => ({ value: name, label: `${name} (${count})` }));
+  return (
+    <Select
+      label="Tag"
+      hidden
+      options={[{ value: "", label: "Any tag" }, ...options]}
+      value={tags.value.has(tag.value) ? tag.value : ""}
+      onChange={(value) => (tag.value = value)}
+    />
   );
 }
 

@@ -1,6 +1,9 @@
 /** The collection: what cannot be replicated yet first, in groups, largest first; what can, folded. */
 
 import { useEffect } from "preact/hooks";
+import { SelectionBar } from "../curating/bar";
+import { select, toggle } from "../curating/selection";
+import { MapView } from "../map/view";
 import { useKeys } from "../state/keys";
 import { inspect, route } from "../state/route";
 import { collection, fitting, project } from "../state/studio";
@@ -11,18 +14,29 @@ import { at, focusOn, move } from "./focus";
 import { GroupCard } from "./group";
 import { Asking } from "./asking";
 import { FoundAxes } from "./axes";
-import { replicatedOpen, filter, leafed, search, searching, sections, toggleGroup } from "./order";
+import {
+  filter,
+  leafed,
+  leftOutOpen,
+  replicatedOpen,
+  search,
+  searching,
+  sections,
+  shownTiles,
+  tag,
+  toggleGroup,
+} from "./order";
 import type { Section } from "./order";
 import { TileCard } from "./tile";
-import { searchField, Toolbar } from "./toolbar";
+import { mapped, searchField, Toolbar } from "./toolbar";
 
 export function CollectionView() {
   const inspecting = route.value.slug !== null;
   useEffect(() => {
     if (!inspecting) focusOn(at.value);
   }, [inspecting]);
-  const { count, skipped, run } = collection.value;
-  if (count === 0) return <NoReferences />;
+  const { count, left_out, skipped, run } = collection.value;
+  if (count === 0 && !left_out.length) return <NoReferences />;
   return (
     <>
       <CollectionKeys inspecting={inspecting} />
@@ -35,8 +49,14 @@ export function CollectionView() {
           </p>
         )}
         <FoundAxes />
-        {filter.value === "all" && !searching.value && <Asking />}
-        {sections.value.length === 0 ? <NothingFound /> : <Sections />}
+        {filter.value === "all" && !searching.value && !mapped.value && <Asking />}
+        {mapped.value ? (
+          <MapView shown={shownTiles.value} />
+        ) : sections.value.length === 0 ? (
+          <NothingFound />
+        ) : (
+          <Sections />
+        )}
         {skipped.length > 0 && (
           <details class="skipped">
             <summary>{plural(skipped.length, "file")} could not be read</summary>
@@ -50,6 +70,7 @@ export function CollectionView() {
           </details>
         )}
       </div>
+      <SelectionBar />
     </>
   );
 }
@@ -68,6 +89,8 @@ function ActiveKeys() {
     { keys: ["Enter"], does: "open in the inspector", run: openFocused },
     { keys: ["o", " "], does: "open or close the group", run: toggleFocused },
     { keys: ["c"], does: "fold or unfold the replicated", run: () => (replicatedOpen.value = !replicatedOpen.value) },
+    { keys: ["x"], does: "select, or no more", run: () => at.value && toggle(at.value) },
+    { keys: ["Escape"], does: "select none", run: () => select([]) },
     { keys: ["/"], does: "search", run: () => searchField.current?.focus() },
   ]);
   return null;
@@ -114,10 +137,12 @@ function Sections() {
 }
 
 function Plain({ section: { kind, tiles } }: { section: Section }) {
-  const folded = kind === "replicated" && filter.value === "all" && !searching.value && !replicatedOpen.value;
+  const open = { replicated: replicatedOpen, "left out": leftOutOpen, loose: null, all: null, group: null }[kind];
+  const folded = open !== null && filter.value === "all" && !searching.value && !open.value;
   const title = {
     loose: collection.value.run ? "Not replicated, in no group" : "References",
     replicated: "Replicated",
+    "left out": "Not mine",
     all: "",
     group: "",
   }[kind];
@@ -125,8 +150,8 @@ function Plain({ section: { kind, tiles } }: { section: Section }) {
     <section aria-label={title || "References"}>
       {title && (
         <h2>
-          {kind === "replicated" ? (
-            <button type="button" class="fold" aria-expanded={!folded} onClick={() => (replicatedOpen.value = folded)}>
+          {open ? (
+            <button type="button" class="fold" aria-expanded={!folded} onClick={() => (open.value = folded)}>
               <Icon name={folded ? "right" : "down"} />
               {title} <small>{tiles.length}</small>
             </button>
@@ -152,6 +177,7 @@ function NothingFound() {
   const clear = () => {
     search.value = "";
     filter.value = "all";
+    tag.value = "";
   };
   return (
     <Empty title="No reference is like that">

@@ -1,8 +1,10 @@
 /** History: how many references each iteration replicated, and any two of them side by side. */
 
 import { useComputed, useSignal, useSignalEffect } from "@preact/signals";
+import { ToldChanges } from "../curating/told";
 import { written } from "../state/actions";
 import { complain } from "../state/notices";
+import { route } from "../state/route";
 import { procedure, project, runs } from "../state/studio";
 import { Button, Empty, Select } from "../ui/controls";
 import { duration } from "../ui/numbers";
@@ -11,9 +13,12 @@ import { requests } from "../wire/requests";
 import { Chart, said } from "./chart";
 import { Diff } from "./diff";
 import { Moves } from "./moves";
+import { OldRun } from "./old-run";
 import { Revisions } from "./revisions";
 
 export function HistoryView() {
+  const { rest } = route.value;
+  if (rest !== null) return <OldRun rest={rest} />;
   return (
     <div class="history">
       {runs.value.length ? (
@@ -26,6 +31,7 @@ export function HistoryView() {
         </Empty>
       )}
       <Revisions />
+      <ToldChanges />
     </div>
   );
 }
@@ -114,6 +120,9 @@ function RunFacts({ run }: { run: Run }) {
         >
           Go back to its procedure
         </Button>
+        <a class="link" href={`#history/${encodeURIComponent(run.run)}`} title="All its replicas, as they were then">
+          Open
+        </a>
         <a class="link" href={`/api/runs/${run.run}/report.html`} target="_blank" rel="noopener">
           Report
         </a>

@@ -154,28 +154,6 @@ export function Judgement() {
   );
 }
 
-/** Whether fits take the reference; it is a name in the setting that leaves some out. */
-export function Taken() {
-  const name = tileOf(reference.value?.slug ?? "")?.name;
-  const now = settings.value;
-  if (!name || !now || name.includes(",")) return null;
-  const names = now.leave_out.split(",").map((each) => each.trim()).filter(Boolean); // prettier-ignore
-  const out = names.includes(name);
-  const switched = out ? names.filter((each) => each !== name) : [...names, name];
-  return (
-    <section class="taken">
-      <Button
-        pressed={out}
-        title={out ? "Let the next fit take this reference again" : "The next fit does without this reference"}
-        onClick={() => void change({ leave_out: switched.join(", ") })}
-      >
-        {out ? "Left out" : "Leave out"}
-      </Button>
-      {out && <p class="soft">The next fit does without it.</p>}
-    </section>
-  );
-}
-
 export function Facts() {
   const open = reference.value;
   if (!open) return null;

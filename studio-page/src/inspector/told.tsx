@@ -8,6 +8,7 @@ import type { Slug, Told } from "../wire/messages";
 import { reference, tell } from "./pair/session";
 
 const AXES = ["x", "-x", "y", "-y", "z", "-z"] as const;
+const UNITS = ["mm", "cm", "m", "in", "ft"] as const;
 const AS_ALL = "as all";
 const SPLIT = [
   { value: AS_ALL, label: "as the others" },
@@ -50,6 +51,13 @@ export function ToldOf() {
         options={axes("front")}
         value={open.told.front ?? AS_ALL}
         onChange={(axis) => sayAxis("front", axis)}
+      />
+      <Select
+        label="Unit"
+        title="Of its lengths; it counts where the procedure says that sizes do"
+        options={[{ value: AS_ALL, label: "as the file says" }, ...UNITS.map((unit) => ({ value: unit, label: unit }))]}
+        value={open.told.unit ?? AS_ALL}
+        onChange={(unit) => say([open.slug], { ...open.told, unit: unit === AS_ALL ? null : (unit as Told["unit"]) })}
       />
       <Select
         label="Objects"

@@ -13,16 +13,18 @@ import type { Slug } from "../wire/messages";
 import { VIEWS } from "../viewer/stage";
 import type { View } from "../viewer/stage";
 import { Causes, regionsShown } from "./causes";
-import { Facts, Figures, Judgement, Standing, Taken } from "./figures";
+import { Facts, Figures, Judgement, Standing } from "./figures";
 import { LayoutSwitch, Legend, OverLegend } from "./legend";
 import { MeasureCard } from "./measuring/card";
 import { take, tool, undo } from "./measuring/points";
+import { NotedOf } from "./noted";
 import { Parameters } from "./parameters";
 import { Pictures } from "./pictures";
 import { DifferenceLegend, Plane } from "./plane";
 import { edited } from "./pair/edits";
 import { colouring, failure, open, original, redo, replica, reset, undo as undoEdit } from "./pair/session";
 import { layout, stage } from "./pair/layout";
+import { Steps } from "../history/steps";
 import { ToldOf } from "./told";
 import { Space } from "./space";
 
@@ -82,8 +84,9 @@ export function Inspector({ slug }: { slug: Slug }) {
         <Causes />
         <Judgement />
         <Facts />
+        <NotedOf slug={slug} />
+        <Steps slug={slug} />
         <ToldOf />
-        <Taken />
       </aside>
     </div>
   );

@@ -5,10 +5,12 @@ import type {
   Change,
   ChosenSettings,
   Collection,
+  Duplicate,
   Job,
   JobKind,
   Mark,
   Marking,
+  Noted,
   Problem,
   Procedure,
   Run,
@@ -58,6 +60,7 @@ export const collection = signal<Collection>({
   criterion: "",
   count: 0,
   counts: { replicated: 0, close: 0, different: 0, compatible: 0 },
+  left_out: [],
   tiles: [],
   groups: [],
   skipped: [],
@@ -71,6 +74,17 @@ export const runs = signal<Run[]>([]);
 export const settings = signal<ChosenSettings | null>(null);
 export const marking = signal<Marking>({ marks: [], learned: null, asked: [] });
 export const marks = computed((): Mark[] => marking.value.marks);
+/** What the author notes of references. */
+export const noted = signal<Record<Slug, Noted>>({});
+export const duplicates = signal<Duplicate[]>([]);
+export const duplicateOf = computed(() => new Map(duplicates.value.map((one) => [one.slug, one])));
+/** All tags, the commonest first, with how many references have each. */
+export const tags = computed(() => {
+  const counts = new Map<string, number>();
+  for (const one of Object.values(noted.value)) for (const tag of one.tags) counts.set(tag, (counts.get(tag) ?? 0) + 1);
+  return new Map([...counts].sort(([a, i], [b, j]) => j - i || a.localeCompare(b)));
+});
+export const leftOut = computed((): ReadonlySet<Slug> => new Set(collection.value.left_out));
 export const explained = signal(false);
 export const problems = signal<Problem[]>([]);
 
@@ -79,7 +93,7 @@ export const fitting = computed(() => ["running", "cancelling"].includes(jobs.fi
 
 /** How many replicas another text of the procedure made, and how many are not measured yet. */
 export const unsure = computed(() => {
-  const shown = collection.value.tiles.filter(({ replica }) => replica !== null);
+  const shown = collection.value.tiles.filter(({ replica, slug }) => replica !== null && !leftOut.value.has(slug));
   return {
     stale: shown.filter(({ stale }) => stale).length,
     unmeasured: shown.filter(({ stale, distance, problem }) => !stale && distance === null && problem === null).length,
@@ -120,6 +134,12 @@ function apply(change: Change): void {
     case "marks":
       marking.value = change.marking;
       return;
+    case "noted":
+      noted.value = change.noted;
+      return;
+    case "duplicates":
+      duplicates.value = change.duplicates;
+      return;
     case "settings":
       settings.value = change.settings;
       return;
@@ -145,6 +165,8 @@ function replace(state: State): void {
   runs.value = state.runs;
   settings.value = state.settings;
   marking.value = state.marking;
+  noted.value = state.noted;
+  duplicates.value = state.duplicates;
   explained.value = state.explanation;
   problems.value = state.problems;
   ready.value = true;
@@ -167,7 +189,8 @@ function replaceTiles(changed: Tile[]): void {
     return next ? provisional(next, tile) : tile;
   });
   const all = [...kept, ...bySlug.values()];
-  collection.value = { ...collection.value, tiles: all, count: all.length, counts: counted(all) };
+  const counting = all.filter(({ slug }) => !leftOut.value.has(slug));
+  collection.value = { ...collection.value, tiles: all, count: counting.length, counts: counted(counting) };
 }
 
 /** A replica that is not measured yet keeps the grade of before, so that tiles do not jump there and back. */

@@ -284,3 +284,79 @@ def test_odd_values_are_explored_as_the_nearest_that_can_be(running: Studio, ord
         assert answer["problem"] is None and set(answer["parameters"]) == {"height", "leg", "shelf", "shelf_height"}
         assert 0.3 <= answer["parameters"]["height"] <= 1.2
     assert running.get("/api/state")["bench"] == "ready"
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body"),
+    [
+        ("PATCH", "/api/notes", b'{"slugs": []}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["nobody"], "add": ["x"]}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["../../x"], "not_mine": true}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "add": [""]}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "add": [" x"]}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "add": ["a,b"]}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "add": ["a\\u0000b"]}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "add": ["' + b"x" * 41 + b'"]}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "add": "x"}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "add": ["\\ud800"]}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "note": "' + b"x" * 4001 + b'"}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "note": ["x"]}'),
+        ("PATCH", "/api/notes", b'{"slugs": ["block"], "not_mine": "yes"}'),
+        ("PATCH", "/api/notes", b'{"slugs": ' + b"[" * DEEP),
+        ("POST", "/api/references/turn", b'{"slugs": ["block"], "turn": "back"}'),
+        ("POST", "/api/references/turn", b'{"slugs": ["nobody"], "turn": "tip"}'),
+        ("POST", "/api/references/turn", b'{"slugs": [], "turn": "tip"}'),
+        ("POST", "/api/references/unit", b'{"slugs": ["block"], "unit": "mile"}'),
+        ("POST", "/api/references/unit", b'{"slugs": ["block"]}'),
+        ("GET", "/api/map?seed=-1", b""),
+        ("GET", "/api/map?seed=1e999", b""),
+        ("GET", "/api/map?seed=nan", b""),
+    ],
+)
+def test_what_is_said_of_many_and_makes_no_sense_is_refused_and_nothing_is_left(
+    running: Studio, method: str, path: str, body: bytes
+) -> None:
+    kept = files(running)
+    status, answer, _ = running.request(method, path, raw=body)
+    assert status == 422 and json.loads(answer)["error"]
+    assert files(running) == kept and running.get("/api/state")["bench"] == "ready"
+
+
+@pytest.mark.parametrize(
+    ("method", "path"),
+    [
+        ("POST", "/api/told/0/undo"),
+        ("POST", "/api/told/999999/undo"),
+        ("POST", "/api/told/" + "9" * 400 + "/undo"),
+        ("POST", "/api/told/..%2f1/undo"),
+        ("GET", "/api/references/..%2f..%2fprocedure.py/steps"),
+        ("GET", "/api/references/nobody/alike"),
+        ("GET", "/api/references/%00/steps"),
+    ],
+)
+def test_changes_and_references_that_are_not_there_are_not_found(running: Studio, method: str, path: str) -> None:
+    assert running.request(method, path, {} if method == "POST" else None)[0] == 404
+
+
+def test_notes_are_written_over_no_link_and_texts_stay_texts(running: Studio, tmp_path: Path) -> None:
+    (tmp_path / "mine.json").write_text("[]")
+    (running.folder / "notes.json").symlink_to(tmp_path / "mine.json")
+    (running.folder / SCRATCH).mkdir(exist_ok=True)
+    told = running.folder / SCRATCH / "told"
+    told.symlink_to(tmp_path)
+    odd = '<img src=x onerror=alert(1)>"\n=1+1'
+    running.send("PATCH", "/api/notes", {"slugs": ["block"], "add": ["<b>"], "note": odd})
+    assert running.get("/api/state")["noted"]["block"] == {"tags": ["<b>"], "note": odd, "not_mine": False}
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"mine.json": "[]"}
+    told.unlink()
+    (running.folder / "notes.json").unlink()
+
+
+@pytest.mark.parametrize(
+    "text", ["{", "[1]", '{"a": 1}', '[{"name": 1}]', "[" * DEEP, '[{"name": "block", "tags": "x"}]']
+)
+def test_a_file_of_notes_of_a_stranger_is_told_and_stays(running: Studio, text: str) -> None:
+    (running.folder / "notes.json").write_text(text)
+    refused = running.send("PATCH", "/api/notes", {"slugs": ["block"], "add": ["x"]}, 409)
+    assert "notes.json" in refused["error"] and (running.folder / "notes.json").read_text() == text
+    (running.folder / "notes.json").unlink()

@@ -1,7 +1,7 @@
 """What the author notes of references: tags, a text, and which are no part of the collection.
 
-The project's ``notes.json`` lies beside its marks, as a JSON list of objects ``{"name", "tags", "note", "not_mine"}``, of those references that
-have something. Other entries of an object stay unchanged.
+They are in ``notes.json``, beside the marks: a JSON list of objects ``{"name", "tags", "note", "not_mine"}``, of those
+references that have something. Other entries of an object stay unchanged.
 """
 
 from __future__ import annotations

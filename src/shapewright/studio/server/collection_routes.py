@@ -23,6 +23,7 @@ def collection_routes(session: Session) -> list[Route]:
     return [
         api("notes", partial(_note, session), "PATCH", requests.NoteOrder),
         api("references/turn", partial(_turn, session), "POST", requests.TurnOrder),
+        api("references/unit", partial(_unit, session), "POST", requests.UnitOrder),
         api("told", lambda _: session.curation.changes()),
         api("told/{number:int}/undo", partial(_undo, session), "POST"),
         api("parameters", lambda _: parameter_table(session.display)),
@@ -40,6 +41,11 @@ def _note(session: Session, request: Request, order: requests.NoteOrder) -> Told
 async def _turn(session: Session, request: Request, order: requests.TurnOrder) -> ToldAnswer:
     requests.check_known(order.slugs, session.display.board.references)
     return ToldAnswer(number=await session.curation.turn(order.slugs, order.turn))
+
+
+def _unit(session: Session, request: Request, order: requests.UnitOrder) -> ToldAnswer:
+    requests.check_known(order.slugs, session.display.board.references)
+    return ToldAnswer(number=session.curation.measure_in(order.slugs, order.unit))
 
 
 def _undo(session: Session, request: Request) -> ToldAnswer:

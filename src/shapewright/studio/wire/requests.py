@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, TypeAlias, TypeVar, get_args
 import msgspec
 from msgspec import Meta, Struct
 
+from shapewright.procedures.facts import Unit
 from shapewright.shapes.files import Format
 from shapewright.studio.wire.detail import Told
 from shapewright.studio.wire.values import Slug, Values
@@ -123,6 +124,13 @@ class TurnOrder(Order, frozen=True):
     turn: Turn
 
 
+class UnitOrder(Order, frozen=True):
+    """Say the unit of the lengths in the files of references."""
+
+    slugs: Annotated[list[Slug], Meta(min_length=1)]
+    unit: Unit | None  # null: what the file says
+
+
 class MarkOrder(Order, frozen=True):
     """Mark a pair of references, or where ``a`` is ``b`` a reference and its own replica."""
 
@@ -191,6 +199,7 @@ _SHOULD: Mapping[Any, str] = {
     "apart, names or null), and unit (mm, cm, m, in, ft or null)",
     NoteOrder: "slugs is a list of references; add and remove are lists of tags of up to 40 letters without commas, "
     f"note is a text of up to {MOST_LETTERS} letters or null, not_mine is true, false or null",
+    UnitOrder: "slugs is a list of references; unit is mm, cm, m, in, ft or null",
     TurnOrder: f"slugs is a list of references; turn is one of {_words(Turn)}",
     CancelOrder: f"kind is one of {_words(JobKind)}",
     RestoreOrder: "digest is a string or null",

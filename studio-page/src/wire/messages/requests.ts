@@ -107,6 +107,13 @@ export interface TurnOrder {
   turn: Turn;
 }
 
+/** Say the unit of the lengths in the files of references. */
+export interface UnitOrder {
+  slugs: Slug[];
+  /** null: what the file says. */
+  unit: "mm" | "cm" | "m" | "in" | "ft" | null;
+}
+
 /** Mark a pair of references, or where ``a`` is ``b`` a reference and its own replica. */
 export interface MarkOrder {
   a: Slug;

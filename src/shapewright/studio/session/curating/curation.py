@@ -8,8 +8,9 @@ from glob import escape
 
 import numpy as np
 from msgspec import convert
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
+from shapewright.procedures.facts import Unit
 from shapewright.references.orientation import QUARTER_TURNS, Orientation
 from shapewright.shapes import Floats
 from shapewright.studio.project.journal import Journal, Said
@@ -94,7 +95,7 @@ class Curation:
         kind: ToldKind = "not mine" if order.not_mine is not None else "note" if order.note is not None else "tags"
         return self._write(kind, changed)
 
-    def tell(self, told: Mapping[Slug, Told]) -> int | None:
+    def tell(self, told: Mapping[Slug, Told], undoes: int | None = None) -> int | None:
         """Say how files stand; the number of the change. Raises ProjectError; then nothing is written."""
         sources = {slug: self._display.listed.sources[slug] for slug in told}
         before = told_of(sources)
@@ -107,6 +108,7 @@ class Curation:
             "file",
             {names[slug]: Said(told=before[slug]) for slug in changed},
             {names[slug]: Said(told=said) for slug, said in changed.items()},
+            undoes,
         )
         self._turned()
         return number
@@ -120,6 +122,11 @@ class Curation:
             told[slug] = replace(before[slug], **{word: getattr(turned, word) for word in ("up", "front")})
         return self.tell(told)
 
+    def measure_in(self, slugs: Sequence[Slug], unit: Unit | None) -> int | None:
+        """Say the unit of the lengths in files; all else that is told of them stays. Raises ProjectError."""
+        before = told_of({slug: self._display.listed.sources[slug] for slug in slugs})
+        return self.tell({slug: replace(told, unit=unit) for slug, told in before.items()})
+
     def undo(self, number: int) -> int | None:
         """Take a change back; what was told of other things since stays. Raises Missing, ProjectError."""
         try:
@@ -128,16 +135,17 @@ class Curation:
             raise Missing("there is no such change any more") from error
         notes = read_notes(self._project.folder)
         noted, files = {}, {}
-        slugs = self._display.board.slugs
+        slugs, listed = self._display.board.slugs, self._display.listed.sources
+        now = told_of({name: listed[slugs[name]] for name in entry.before if name in slugs})
         for name, said in entry.before.items():
-            after = entry.after[name]
+            after = entry.after.get(name, said)
             if said.noted and after.noted:
                 noted[name] = _undone(notes.get(name, NOTHING), said.noted, after.noted)
-            if said.told and name in slugs:
-                files[slugs[name]] = said.told
+            if said.told and after.told and name in slugs:
+                files[slugs[name]] = _untold(now[name], said.told, after.told)
         if noted:
             return self._write(entry.kind, noted, number)
-        return self.tell(files)
+        return self.tell(files, number)
 
     def _write(self, kind: ToldKind, changed: Mapping[str, Noted], undoes: int | None = None) -> int | None:
         before = read_notes(self._project.folder)
@@ -188,6 +196,12 @@ def _undone(now: Noted, before: Noted, after: Noted) -> Noted:
         note=before.note if before.note != after.note else now.note,
         not_mine=before.not_mine if before.not_mine != after.not_mine else now.not_mine,
     )
+
+
+def _untold(now: Told, before: Told, after: Told) -> Told:
+    """The same of a file."""
+    fields = asdict(before)
+    return replace(now, **{word: value for word, value in fields.items() if value != getattr(after, word)})
 
 
 def _without(some: Iterable[str], others: Sequence[str]) -> list[str]:
