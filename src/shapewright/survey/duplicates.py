@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,7 @@ NEAR = 0.006
 eight pairs are nearer than this: bottles and pots that differ in their contents, and cuboids of one model that was
 listed twice; the next nearest pairs, at .010 and more, are pieces of different makers. Shapes that are stretched by 1 %
 lie .005 apart in the middle, rounded to a thousandth of their extent .0003."""
+_AT_ONCE = 1000  # pairs that are compared in one step, some 20 ms
 _SAME = 1e-4
 """Units of the largest extent: corners nearer than this stand at one place, whatever precision a file has."""
 
@@ -47,18 +48,36 @@ class Duplicate:
 
 def duplicates(references: Sequence[Reference], seen: Bytes) -> tuple[Duplicate, ...]:
     """The references that are like one before them, in their order. seen: see ``likeness.pictures``."""
+    search = sought(references, seen)
+    while True:
+        try:
+            next(search)
+        except StopIteration as end:
+            found: tuple[Duplicate, ...] = end.value
+            return found
+
+
+def sought(references: Sequence[Reference], seen: Bytes) -> Generator[None, None, tuple[Duplicate, ...]]:
+    """The same in steps, for those who have other work between them."""
     pairs = _candidates(ink(seen))
-    apart, turns = differences(seen, pairs[:, 0], pairs[:, 1])
+    apart, turns = np.empty(len(pairs)), np.empty(len(pairs), dtype=np.int64)
+    for start in range(0, len(pairs), _AT_ONCE):
+        some = slice(start, start + _AT_ONCE)
+        apart[some], turns[some] = differences(seen, pairs[some, 0], pairs[some, 1])
+        yield
     near = np.flatnonzero(apart <= NEAR)
     found: dict[int, Duplicate] = {}
     for k in near[np.lexsort((pairs[near, 0], pairs[near, 1]))]:
-        one, other = (references[i] for i in pairs[k])
+        first, second = (int(i) for i in pairs[k])
+        known = found.get(second)
+        if first in found or (known and known.is_equal):
+            continue
+        one, other = references[first], references[second]
         quarters = int(turns[k])
         is_equal = equal(one.shape, other.turned(quarters).shape)
-        known = found.get(int(pairs[k, 1]))
-        if int(pairs[k, 0]) in found or (known and (known.is_equal or not is_equal)):
-            continue
-        found[int(pairs[k, 1])] = Duplicate(other.name, one.name, is_equal, round(float(apart[k]), 5), quarters)
+        if known is None or is_equal:
+            found[second] = Duplicate(other.name, one.name, is_equal, round(float(apart[k]), 5), quarters)
+        yield
     return tuple(found[row] for row in sorted(found))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -18,7 +18,7 @@ from shapewright.storage import whole_file
 from shapewright.studio.bench.gallery import Gallery
 from shapewright.studio.wire.collection import Duplicate
 from shapewright.studio.wire.values import Slug
-from shapewright.survey.duplicates import duplicates
+from shapewright.survey.duplicates import sought
 from shapewright.survey.likeness import differences, pictures
 
 LOOKS = "looks"  # the folder in the cache
@@ -78,11 +78,11 @@ class Looks:
         order = np.argsort(apart, kind="stable")
         return {slugs[i]: round(float(apart[i]), 5) for i in order if slugs[i] != slug}
 
-    def duplicates(self, gallery: Gallery) -> list[Duplicate]:
-        """The references that are like one before them; none where one of them cannot be read any more."""
+    def duplicates(self, gallery: Gallery) -> Generator[None, None, list[Duplicate]]:
+        """The references that are like one before them, a step at a time; none where one cannot be read any more."""
         slugs, seen = self.together()
         try:
-            found = duplicates(_Named(gallery, slugs), seen)
+            found = yield from sought(_Named(gallery, slugs), seen)
         except (UnreadableError, KeyError, ValueError):
             return []
         return [Duplicate(slug=one.name, of=one.of, equal=one.is_equal, quarters=one.quarters) for one in found]

@@ -34,7 +34,8 @@ class Overview:
             self._left -= 1
             yield
         self._left = 0
-        self._send(messages.Alike(duplicates=looks.duplicates(gallery)), b"")
+        found = yield from looks.duplicates(gallery)
+        self._send(messages.Alike(duplicates=found), b"")
 
     def explore(self, request: messages.Exploring, root: Path) -> Iterator[None]:
         """root: folder that problems name files relative to."""
