@@ -17,7 +17,7 @@ from shapewright.rendering.thumbnails import thumbnail
 from shapewright.shapes import Floats, Mesh
 
 Picture: TypeAlias = NDArray[np.uint8]
-"""RGB on white, (rows, columns, 3)."""
+"""RGB and how much it covers, (rows, columns, 4): whoever shows it has a light or a dark ground."""
 SIZE = 300
 """Pixels of each picture's sides."""
 _LARGER = 2  # times that, pictures are drawn before they are cut to what they show
@@ -50,8 +50,8 @@ def card(examples: Sequence[Example], size: int = SIZE) -> bytes:
 
 
 def _cut(pictures: Sequence[Picture], size: int) -> Picture:
-    """One row of pictures, (size, n * size, 3), of the square around all that they show."""
-    shown = np.any([(picture < 255).any(axis=2) for picture in pictures], axis=0)
+    """One row of pictures, (size, n * size, 4), of the square around all that they show."""
+    shown = np.any([picture[:, :, 3] > 0 for picture in pictures], axis=0)
     rows, columns = np.flatnonzero(shown.any(axis=1)), np.flatnonzero(shown.any(axis=0))
     if not len(rows):
         rows = columns = np.arange(len(shown))
@@ -60,22 +60,21 @@ def _cut(pictures: Sequence[Picture], size: int) -> Picture:
     left, top = (-round(place - half) for place in middle)
     cells = []
     for picture in pictures:
-        cell = Image.new("RGB", (round(2 * half),) * 2, "white")
+        cell = Image.new("RGBA", (round(2 * half),) * 2)
         cell.paste(Image.fromarray(picture), (left, top))
         cells.append(np.asarray(cell.resize((size, size), Image.Resampling.LANCZOS)))
     return np.concatenate(cells, axis=1)
 
 
 def _picture(mesh: Mesh, marked: Floats | None, size: int) -> Picture:
-    """RGB on white, (size, size, 3)."""
+    """The mesh in grey, and in orange what is marked, (size, size, 4)."""
     grey, alpha = np.moveaxis(np.array(Image.open(io.BytesIO(thumbnail(mesh, size))), dtype=np.float64), -1, 0)
-    light = grey * alpha / 255.0 + 255.0 - alpha
-    picture = np.repeat(light[:, :, None], 3, axis=2)
+    picture = np.repeat(grey[:, :, None], 3, axis=2)
     if marked is not None and len(marked):
         mask = _mask(mesh.normalised(), marked, size) & (alpha > 0)
-        tinted = _MARK * (light[mask] / 255.0)[:, None]
+        tinted = _MARK * (grey[mask] / 255.0)[:, None]
         picture[mask] = (1.0 - _STRENGTH) * picture[mask] + _STRENGTH * tinted
-    return np.round(picture).astype(np.uint8)
+    return np.round(np.dstack([picture, alpha])).astype(np.uint8)
 
 
 def _mask(mesh: Mesh, points: Floats, size: int) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
