@@ -81,3 +81,18 @@ def test_alike_problems_are_told_once() -> None:
     found = together(told)
     assert [each.slugs for each in found] == [("c",), ("d",), ("a", "b")]
     assert found[2].count == 2
+
+
+def test_those_of_one_line_differ_in_values_alone() -> None:
+    told = [
+        Problem("raised", "ValueError: leg 0.25 of 'wide' is too thin", "p.py", 3, slugs=("a",)),
+        Problem("raised", "ValueError: leg -1.5e-3 of 'narrow' is too thin", "p.py", 3, slugs=("b",)),
+        Problem("raised", "ValueError: leg nan of 'wide' is too thin", "p.py", 3, slugs=("c",)),
+        Problem("raised", "ValueError: leg 0.25 of 'wide' is too long", "p.py", 3, slugs=("d",)),
+        Problem("raised", "ValueError: leg 0.5 of 'wide' is too thin", "q.py", 3, slugs=("e",)),
+        Problem("no shape", "a mesh of 3 parts", slugs=("f",)),
+        Problem("no shape", "a mesh of 4 parts", slugs=("g",)),
+    ]
+    found = together(told)
+    assert [each.slugs for each in found] == [("a", "b", "c"), ("d",), ("e",), ("f",), ("g",)]
+    assert found[0].message == told[0].message and found[0].count == 3

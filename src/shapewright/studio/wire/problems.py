@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
@@ -18,6 +19,10 @@ ProblemKind: TypeAlias = Annotated[
     Literal[FailureKind, "syntax", "load", "references", "fit", "explain", "export", "project"],
     Meta(title="ProblemKind"),
 ]
+_VALUES = re.compile(
+    r"""'[^']*'|"[^"]*"|[-+]?(?:\d[\d_]*\.?\d*|\.\d+)(?:e[-+]?\d+)?|\b(?:nan|inf|True|False|None)\b""", re.I
+)
+"""What in a message may be a value of one shape: text in quotes, numbers, and the like."""
 
 
 class Problem(Struct, frozen=True):
@@ -73,10 +78,14 @@ def syntax_problem(path: Path, root: Path) -> Problem | None:
 
 
 def together(problems: Iterable[Problem]) -> list[Problem]:
-    """One problem for all shapes that failed alike, the commonest first; infeasible ones come last."""
-    alike: dict[tuple[str, str, int | None], Problem] = {}
+    """One problem for all shapes that failed alike, the commonest first; infeasible ones come last.
+
+    Those of one line are alike where their messages differ in values alone; the first message stands for all.
+    """
+    alike: dict[tuple[str, str, str | None, int | None], Problem] = {}
     for problem in problems:
-        key = (problem.kind, problem.message, problem.line)
+        said = problem.message if problem.line is None else _VALUES.sub("#", problem.message)
+        key = (problem.kind, said, problem.file, problem.line)
         first = alike.get(key, problem)
         alike[key] = first.of(*(() if first is problem else first.slugs), *problem.slugs)
     return sorted(alike.values(), key=lambda problem: (problem.kind == "infeasible", -len(problem.slugs)))
