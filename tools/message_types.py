@@ -17,7 +17,7 @@ from typing import Annotated, Any, Literal, NotRequired, Union, get_args, get_or
 import msgspec
 
 from shapewright.judging.target import Measures
-from shapewright.settings import Preset, described
+from shapewright.settings import Preset, Settings, described
 from shapewright.studio.wire import (
     answers,
     changes,
@@ -64,6 +64,7 @@ def _settings() -> str:
             least = field.within.above if field.within.least is None else field.within.least
             known = {"help": field.help, "least": least, "most": field.within.most or field.within.below}
             known["step"] = field.within.step or 1 if field.kind is int else "any"
+            known["usual"] = getattr(Settings, name)
         lines.append(f"  {name}: {{ {', '.join(f'{key}: {json.dumps(value)}' for key, value in known.items())} }},")
     lines += ["} as const;", "export const MEASURES: Record<string, string> = {"]
     lines += [f"  {name}: {json.dumps(words)}," for name, words in Measures.words().items()]

@@ -115,11 +115,16 @@ def keys(visit: Visit) -> None:
     visit.page.keyboard.press("?")
 
 
+def first(visit: Visit) -> None:
+    visit.until("[...document.querySelectorAll('.standing-pair img')].filter(i => i.naturalWidth === 512).length === 2")
+
+
 # The name of each picture, how it comes about, and whether it is taken in the dark; the last ones change the project.
 FLAT: dict[str, tuple[Callable[[Visit], None], bool]] = {
     "drawings": (drawings, False),
     "difference": (difference, False),
 }
+NEW: dict[str, tuple[Callable[[Visit], None], bool]] = {"first": (first, False)}
 SHOTS: dict[str, tuple[Callable[[Visit], None], bool]] = {
     "collection": (collection, False),
     "inspector": (inspector, False),
@@ -168,8 +173,14 @@ def prepare_flat(folder: Path) -> None:
         started.wait_for(rested, 1800)
 
 
+def prepare_new(folder: Path) -> None:
+    """Make a project with references that was never fitted."""
+    write(folder / "references")
+    shutil.copy(ROOT / "src" / "shapewright" / "cli" / "starters" / "python_page.py", folder / "procedure.py")
+
+
 def take(started: Studio, browser: Any, name: str) -> None:
-    arrive, dark = (SHOTS | FLAT)[name]
+    arrive, dark = (SHOTS | FLAT | NEW)[name]
     visit = Visit.of(started, browser, color_scheme="dark" if dark else "light")
     visit.page.set_viewport_size(SIZE)
     visit.page.wait_for_selector(".tile")
@@ -184,14 +195,15 @@ def take(started: Studio, browser: Any, name: str) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(SHOTS | FLAT))
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(SHOTS | FLAT | NEW))
     parser.add_argument("--project", type=Path, help="where the projects are, or are to be made")
     arguments = parser.parse_args()
-    wanted = arguments.names or [*SHOTS, *FLAT]
-    if unknown := set(wanted) - {*SHOTS, *FLAT}:
+    wanted = arguments.names or [*SHOTS, *FLAT, *NEW]
+    if unknown := set(wanted) - {*SHOTS, *FLAT, *NEW}:
         parser.error(f"no picture {', '.join(unknown)}")
     with tempfile.TemporaryDirectory() as scratch, chromium() as browser:
-        for folder, shots, make in (("tables", SHOTS, prepare), ("silhouettes", FLAT, prepare_flat)):
+        kinds = (("tables", SHOTS, prepare), ("silhouettes", FLAT, prepare_flat), ("new", NEW, prepare_new))
+        for folder, shots, make in kinds:
             project = (arguments.project or Path(scratch)) / folder
             names = [name for name in wanted if name in shots]
             if not names:

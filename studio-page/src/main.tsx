@@ -7,6 +7,7 @@ import "./styles/tokens.css";
 import "./styles/base.css";
 import "./styles/frame.css";
 import "./styles/collection.css";
+import "./styles/first.css";
 import "./styles/inspector.css";
 import "./styles/loop.css";
 import "./styles/history.css";

@@ -25,10 +25,7 @@ test("the largest region of each kind is told in words", () => {
   const told = differences([piece(0.306), piece(0.1), piece(0.05)], [piece(0.5)]);
   assert.deepEqual(
     told.map(({ words }) => words),
-    [
-      "A region of the reference as long as 31 % of the shape has no counterpart; 2 more",
-      "A region of the replica as long as 50 % of the shape has no counterpart",
-    ],
+    ["Missing: a piece 31 % as long as the shape, and 2 more", "Too much: a piece 50 % as long as the shape"],
   );
   assert.deepEqual(differences([], []), []);
 });

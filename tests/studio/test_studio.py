@@ -170,7 +170,7 @@ def test_a_fit_shows_early_answers_and_ends_in_a_run(fitted: Studio) -> None:
     assert all(tile["replica"] and tile["distance"] is not None for tile in state["collection"]["tiles"])
     told = [m["job"] for m in fitted.messages if m["type"] == "job" and m["job"]["kind"] == "fit"]
     assert {"most similar samples", "predicted"} <= {job["answer"] for job in told}
-    assert [stage["name"] for stage in told[-1]["stages"]][:3] == ["sample", "render", "train"]
+    assert [stage["name"] for stage in told[-1]["stages"]][:4] == ["open", "sample", "render", "train"]
     assert told[-1]["curve"][0]["epoch"] == 1 and told[-1]["result"] == {"run": state["runs"][-1]["run"]}
     stages = {tile["stage"] for m in fitted.messages if m["type"] == "tiles" for tile in m["tiles"]}
     assert "early" in stages  # predictions of one epoch are worse than those, and are not shown

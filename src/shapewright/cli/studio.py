@@ -41,6 +41,13 @@ def studio(
     allow_remote: Annotated[
         bool, typer.Option("--allow-remote", help="Let others reach the studio: who has its token runs code as you.")
     ] = False,
+    keep_token: Annotated[
+        bool,
+        typer.Option(
+            "--keep-token",
+            help="Keep the token for the next start, in a file that only you can read: open pages connect again.",
+        ),
+    ] = False,
 ) -> None:
     """Open the project as a page in the browser: the loop of editing, fitting and looking, live."""
     from shapewright.studio.project.workspace import Project
@@ -58,4 +65,5 @@ def studio(
         allow_remote,
         browser,
         lambda address: typer.echo(address),
+        keep_token,
     )

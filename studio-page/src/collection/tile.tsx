@@ -58,7 +58,7 @@ function Card({ tile, children }: Props) {
         <Picture url={tile.reference} tint={null} alt="reference" />
         <Picture url={tile.replica} tint={tile.colour} alt="replica" dim={tile.stale} />
       </button>
-      <footer>
+      <footer onClick={() => inspect(tile.slug)}>
         <span class="name" title={tile.name}>
           {tile.name}
         </span>

@@ -6,14 +6,17 @@ import { select, toggle } from "../curating/selection";
 import { MapView } from "../map/view";
 import { useKeys } from "../state/keys";
 import { inspect, route } from "../state/route";
-import { collection, fitting, project } from "../state/studio";
+import { collection, fitting } from "../state/studio";
 import { Button, Empty } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { plural } from "../ui/numbers";
 import { at, focusOn, move } from "./focus";
 import { GroupCard } from "./group";
 import { Asking } from "./asking";
+import { DropZone } from "../first/drop";
+import { Welcome } from "../first/welcome";
 import { FoundAxes } from "./axes";
+import { Next } from "./next";
 import {
   filter,
   leafed,
@@ -36,18 +39,15 @@ export function CollectionView() {
     if (!inspecting) focusOn(at.value);
   }, [inspecting]);
   const { count, left_out, skipped, run } = collection.value;
+  if (count === 0 && !left_out.length && run === null) return <Welcome />;
   if (count === 0 && !left_out.length) return <NoReferences />;
   return (
     <>
       <CollectionKeys inspecting={inspecting} />
       <Toolbar />
       <div class="collection">
-        {run === null && !fitting.value && (
-          <p class="hint">
-            Nothing is fitted yet. Press <b>Fit</b> to find, for each of these references, the parameters with which the
-            procedure comes nearest to it.
-          </p>
-        )}
+        {run === null && !fitting.value && <Welcome />}
+        <Next />
         <FoundAxes />
         {filter.value === "all" && !searching.value && !mapped.value && <Asking />}
         {mapped.value ? (
@@ -189,10 +189,7 @@ function NothingFound() {
 function NoReferences() {
   return (
     <Empty title="No references yet">
-      <p>
-        Put meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF, DAE, FBX, USD, STEP, IGES) into{" "}
-        <code>{project.value.references}</code> in <code>{project.value.folder}</code>. They appear here by themselves.
-      </p>
+      <DropZone />
     </Empty>
   );
 }

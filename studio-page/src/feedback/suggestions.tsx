@@ -1,37 +1,18 @@
 /** What to write next: changes of the procedure that were tried and helped. */
 
-import { copy, written } from "../state/actions";
-import { complain, tell } from "../state/notices";
-import { go, inspect } from "../state/route";
+import { copy } from "../state/actions";
+import { inspect } from "../state/route";
 import { procedure, tiles } from "../state/studio";
 import { Button } from "../ui/controls";
 import { plural } from "../ui/numbers";
-import { Lines } from "../ui/lines";
 import { Picture } from "../ui/picture";
 import type { Suggestion } from "../wire/messages";
-import { requests } from "../wire/requests";
+import { Parts } from "./parts";
 
 const SHOWN = 6;
 
 export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; index: number }) {
-  const { kind, title, text, snippet, picture, references, gain, diff } = suggestion;
-  const toCopy = async () => {
-    try {
-      const { path } = await requests.applyToCopy(index);
-      tell(`Written to ${path}.`);
-    } catch (error) {
-      complain(error);
-    }
-  };
-  const toProcedure = async () => {
-    try {
-      const done = await requests.applyToProcedure(index, procedure.value.digest);
-      written(`The procedure has it: ${title}.`, done);
-      go("loop");
-    } catch (error) {
-      complain(error);
-    }
-  };
+  const { kind, title, text, snippet, picture, references, gain, source } = suggestion;
   return (
     <article class="card suggestion">
       <header>
@@ -59,10 +40,8 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
         </figure>
       )}
       <div class="content">
-        {diff?.length ? (
-          <div class="changes" tabIndex={0} role="region" aria-label="What it changes">
-            <Lines lines={diff} />
-          </div>
+        {source !== null ? (
+          <Parts index={index} title={title} />
         ) : (
           snippet && (
             <pre>
@@ -93,15 +72,13 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
         {procedure.value.stale && (
           <p class="soft">Tried on the text of the last fit. Applying it keeps what you have written since.</p>
         )}
-        <div class="row">
-          {snippet && (
-            <Button icon="copy" onClick={() => void copy(snippet, "the snippet")}>
-              Copy
+        {snippet && (
+          <div class="row">
+            <Button icon="copy" kind="quiet" onClick={() => void copy(snippet, "the snippet")}>
+              Copy as text
             </Button>
-          )}
-          <Button onClick={() => void toCopy()}>Apply to a copy</Button>
-          <Button onClick={() => void toProcedure()}>Apply to the procedure</Button>
-        </div>
+          </div>
+        )}
       </div>
     </article>
   );

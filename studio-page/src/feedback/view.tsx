@@ -11,6 +11,7 @@ import type { Explanation } from "../wire/messages";
 import { requests } from "../wire/requests";
 import { Causes } from "./causes";
 import { Marks } from "./marks";
+import { Misfits } from "./misfits";
 import { SuggestionCard } from "./suggestions";
 import { TriedChanges, spent } from "./tried";
 
@@ -67,6 +68,7 @@ export function FeedbackView() {
                 : "For every reference that is not replicated: where it differs, why, and which change of the procedure would help. Each suggestion is tried before it is shown."}
             </p>
             <Explain />
+            <Misfits />
           </section>
         )}
       </div>

@@ -13,12 +13,15 @@ import { ParametersView } from "../parameters/view";
 import { fit } from "../state/actions";
 import { useKeys } from "../state/keys";
 import { go, route, VIEWS } from "../state/route";
-import { collection, connected, fitting, jobs, lost, procedure, project, ready, unsure } from "../state/studio";
+import { collection, connected, fitting, jobs, procedure, project, ready, unsure } from "../state/studio";
 import { switchTheme } from "../state/theme";
 import { Empty } from "../ui/controls";
-import { Header, ProgressLine } from "./header";
+import { Header } from "./header";
 import { Help, helping } from "./help";
+import { DropCover } from "../first/drop";
+import { Lost } from "./lost";
 import { Notices } from "./notices";
+import { ProgressLine } from "./progress";
 import { Problems } from "./problems";
 
 const SHOWN = {
@@ -55,7 +58,7 @@ export function App() {
   if (!ready.value) {
     return (
       <Empty title={connected.value ? "Opening the project…" : "No connection to the studio's server"}>
-        {!connected.value && <p>{lost.value}</p>}
+        {!connected.value && <Lost />}
       </Empty>
     );
   }
@@ -65,12 +68,14 @@ export function App() {
     <>
       <Header />
       <ProgressLine />
+      <Lost />
       <Problems />
       <main class={slug ? "covered" : ""}>
         <View />
       </main>
       {slug && <Inspector slug={slug} />}
       <Help />
+      <DropCover />
       <Notices />
     </>
   );

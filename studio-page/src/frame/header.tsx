@@ -2,24 +2,18 @@
 
 import { dirty } from "../loop/editing";
 import { cancel, fit } from "../state/actions";
-import { elapsed } from "../state/clock";
+import { work } from "../state/clock";
 import { MODIFIER } from "../state/keys";
 import { go, route, VIEWS } from "../state/route";
 import { bench, collection, connected, fitting, jobs, lost, procedure, project } from "../state/studio";
 import { switchTheme, theme } from "../state/theme";
 import { Button } from "../ui/controls";
 import { duration } from "../ui/numbers";
-import type { Answer } from "../wire/messages";
 import { ExportMenu } from "./exporting";
 import { helping } from "./help";
+import { Working } from "./progress";
 
 const LABELS = { collection: "Collection", loop: "Loop", history: "History", feedback: "Feedback", explore: "Explore", parameters: "Parameters" } as const; // prettier-ignore
-const ANSWERS: Record<Answer, string> = {
-  "carried over": "parameters carried over",
-  "most similar samples": "first guesses shown",
-  predicted: "predictions shown",
-};
-
 export function Header() {
   return (
     <header class="header">
@@ -67,28 +61,14 @@ function Mark() {
 /** One line on what is going on. */
 export function Status() {
   const job = jobs.fit.value;
-  const stage = job.stages.at(-1);
   if (!connected.value) {
     return (
       <p class="status bad" title={lost.value}>
-        {lost.value}
+        not connected
       </p>
     );
   }
-  if (fitting.value) {
-    const part = stage && stage.total > 1 ? ` ${stage.done}/${stage.total}` : "";
-    return (
-      <p class="status busy" role="status">
-        <b>{job.state === "cancelling" ? "cancelling" : (stage?.name ?? "starting")}</b>
-        {part}
-        <span class="soft" aria-hidden="true">
-          {" "}
-          · {duration(elapsed("fit"))}
-        </span>
-        {job.answer && <span class="soft"> · {ANSWERS[job.answer] ?? job.answer}</span>}
-      </p>
-    );
-  }
+  if (work.value.length) return <Working />;
   if (bench.value !== "ready") {
     return <p class="status busy">{bench.value === "starting" ? "Starting…" : "The bench restarts…"}</p>;
   }
@@ -126,17 +106,5 @@ function FitButton() {
     >
       Fit
     </Button>
-  );
-}
-
-/** How far the fit is, as a hair line under the bar. */
-export function ProgressLine() {
-  const stage = jobs.fit.value.stages.at(-1);
-  if (!fitting.value) return <div class="progress-line" />;
-  const share = stage && stage.total > 0 ? stage.done / stage.total : 0;
-  return (
-    <div class="progress-line">
-      <i style={{ width: `${(share * 100).toFixed(1)}%` }} />
-    </div>
   );
 }

@@ -1,6 +1,7 @@
 /** History: how many references each iteration replicated, and any two of them side by side. */
 
 import { useComputed, useSignal, useSignalEffect } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 import { ToldChanges } from "../curating/told";
 import { written } from "../state/actions";
 import { complain } from "../state/notices";
@@ -15,6 +16,7 @@ import { Diff } from "./diff";
 import { Moves } from "./moves";
 import { OldRun } from "./old-run";
 import { Revisions } from "./revisions";
+import { RunTimes, watched } from "./times";
 
 export function HistoryView() {
   const { rest } = route.value;
@@ -22,7 +24,9 @@ export function HistoryView() {
   return (
     <div class="history">
       {runs.value.length ? (
-        <Iterations />
+        <div class="main">
+          <Iterations />
+        </div>
       ) : (
         <Empty title="No iteration yet">
           <p>
@@ -30,8 +34,11 @@ export function HistoryView() {
           </p>
         </Empty>
       )}
-      <Revisions />
-      <ToldChanges />
+      <aside>
+        <RunTimes />
+        <Revisions />
+        <ToldChanges />
+      </aside>
     </div>
   );
 }
@@ -52,13 +59,16 @@ function Iterations() {
       .catch(complain);
   });
   const { before, after } = pair.value!;
+  useEffect(() => {
+    watched.value = after;
+  }, [after]);
   const pick = (run: string, asBefore: boolean) => {
     picked.value = asBefore ? { before: run, after } : { before: picked.value.before, after: run };
   };
   const options = runs.value.map(({ run, counts }) => ({ value: run, label: `${run} (${counts.replicated})` }));
   return (
     <>
-      <section class="overview">
+      <section class="overview" data-overview>
         <Chart runs={runs.value} before={before} after={after} onPick={pick} />
         <div class="choice">
           <Select label="Compare" options={options} value={before} onChange={(run) => pick(run, true)} />

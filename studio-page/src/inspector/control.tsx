@@ -1,7 +1,6 @@
 /** The control of one parameter, by its kind. */
 
 import { Button, Segments, Select, Toggle } from "../ui/controls";
-import { significant } from "../ui/numbers";
 import type { Parameter, Value } from "../wire/messages";
 
 export interface Control {
@@ -43,7 +42,6 @@ function Slider({ parameter, value, found, predicted, spread, disabled, onChange
       : null;
   return (
     <div class="slider">
-      <span class="end">{significant(low, 3)}</span>
       <div class="rail">
         <div class="track" aria-hidden="true">
           {band && <i class="spread" style={{ left: percent(band.left), width: percent(band.right - band.left) }} />}
@@ -54,7 +52,6 @@ function Slider({ parameter, value, found, predicted, spread, disabled, onChange
         <input
           type="range"
           aria-label={parameter.name}
-          title={parameter.meaning || undefined}
           min={low}
           max={high}
           step={(high - low) / 400}
@@ -63,7 +60,6 @@ function Slider({ parameter, value, found, predicted, spread, disabled, onChange
           onInput={(event) => onChange(Math.min(high, Math.max(low, event.currentTarget.valueAsNumber)))}
         />
       </div>
-      <span class="end">{significant(high, 3)}</span>
     </div>
   );
 }
@@ -90,9 +86,6 @@ function Stepper({ parameter, value, disabled, onChange }: Control) {
       <Button disabled={disabled || now >= high} title={`${parameter.name} more`} onClick={() => onChange(now + 1)}>
         +
       </Button>
-      <span class="soft">
-        {low} to {high}
-      </span>
     </div>
   );
 }

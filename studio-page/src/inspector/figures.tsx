@@ -27,7 +27,7 @@ export function Figures() {
         <output data-figure="value">{fixed(value)}</output>
         <span class={`verdict ${now && value !== null ? now.grade : ""}`}>
           <span data-figure="grade">{failed ? "no shape" : value === null ? "not measured" : now?.grade}</span>
-          <small>{cutsSaid()}</small>
+          <small title={cutsSaid()}>{cutsSaid()}</small>
         </span>
         {better !== null && Math.abs(better) >= 0.0005 && (
           <span class={`change ${better > 0 ? "better" : "worse"}`} title={`${fixed(found)} as found`}>
@@ -36,9 +36,9 @@ export function Figures() {
           </span>
         )}
       </div>
-      {now && <Regions missing={now.missing} surplus={now.surplus} />}
+      <Regions missing={now?.missing ?? []} surplus={now?.surplus ?? []} />
       <p class="paper" title={collection.value.criterion}>
-        Paper's measure: {collection.value.measure} <span data-figure="distance">{fixed(now?.distance)}</span>
+        Paper's: {collection.value.measure} <span data-figure="distance">{fixed(now?.distance)}</span>
         {now && now.distance !== null && (now.compatible ? ", compatible" : ", incompatible")}
       </p>
       <dl>
@@ -90,16 +90,16 @@ function cutsSaid(): string {
 /** The largest regions without a counterpart, in words; the stage marks the one that the pointer is on. */
 function Regions({ missing, surplus }: { missing: Piece[]; surplus: Piece[] }) {
   const told = differences(missing, surplus);
-  if (!told.length) return null;
   return (
     <ul class="regions-said">
       {told.map(({ piece, words }) => (
         <li
           key={words}
+          title={words}
           onPointerEnter={() => (pointed.value = boxOf(piece, missing.includes(piece) ? "unexplained" : "surplus"))}
           onPointerLeave={() => (pointed.value = null)}
         >
-          {words}.
+          {words}
         </li>
       ))}
     </ul>

@@ -6,6 +6,7 @@ import type { TargetedKeyboardEvent } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { procedure } from "../state/studio";
 import { Button } from "../ui/controls";
+import { Icon } from "../ui/icons";
 import { percent, shown, significant, words } from "../ui/numbers";
 import type { Parameter, Value } from "../wire/messages";
 import { ControlOf } from "./control";
@@ -71,64 +72,80 @@ const differs = (name: string): boolean => {
   return typeof found === "number" && typeof now === "number" ? Math.abs(found - now) > 1e-9 : found !== now;
 };
 
+/** One line of a fixed height: nothing moves under the pointer that drags. */
 function Row({ parameter }: { parameter: Parameter }) {
   const { name, kind, meaning } = parameter;
   const found = reference.value;
   const value = values.value[name] ?? parameter.default;
   const used = active.value.size === 0 || active.value.has(name);
-  const limited = atLimit.value.has(name) && used;
-  const longer = limited && edited.value === null && found?.longer.includes(name);
-  const control = (
-    <ControlOf
-      parameter={parameter}
-      value={value}
-      found={found?.parameters?.[name] ?? null}
-      predicted={found?.predicted?.[name] ?? null}
-      spread={found?.spread?.[name] ?? null}
-      disabled={!used}
-      onChange={(next) => set(name, next)}
-    />
-  );
-  const short = kind === "binary" || kind === "integer";
+  const predicted = predictionSaid(parameter, found?.predicted?.[name] ?? null);
   return (
     <div
-      class={`parameter ${used ? "" : "unused"}`}
+      class={`parameter ${kind} ${used ? "" : "unused"}`}
       data-parameter={name}
       role="group"
       aria-label={name}
-      title={meaning || undefined}
+      title={[meaning, used ? "" : NO_EFFECT, rangeSaid(parameter), predicted].filter(Boolean).join("\n")}
     >
-      <div class="head">
-        <span class="label" title={meaning ? `${name}: ${meaning}` : name}>
-          {words(name)}
-        </span>
-        {used ? <Predicted parameter={parameter} value={found?.predicted?.[name] ?? null} /> : <NoEffect />}
-        {isBeyond(parameter, value) ? (
-          <Beyond parameter={parameter} value={Number(value)} />
-        ) : longer ? (
-          <span class="badge warn" title="A longer Range brings the replica nearer: see why it differs">
-            Range too short
-          </span>
-        ) : (
-          limited && (
-            <span class="soft" title="It rests on the end of its Range">
-              at its end
-            </span>
-          )
-        )}
-        {differs(name) && (
-          <Button
-            kind="quiet"
-            icon="reset"
-            title={`${name} as found: ${shown(found?.parameters?.[name])}`}
-            onClick={() => resetOne(name)}
-          />
-        )}
-        {kind === "scalar" && <NumberField parameter={parameter} text={significant(Number(value))} disabled={!used} />}
-        {short && control}
-      </div>
-      {!short && control}
+      <span class="label">{words(name)}</span>
+      <ControlOf
+        parameter={parameter}
+        value={value}
+        found={found?.parameters?.[name] ?? null}
+        predicted={found?.predicted?.[name] ?? null}
+        spread={found?.spread?.[name] ?? null}
+        disabled={!used}
+        onChange={(next) => set(name, next)}
+      />
+      {kind === "scalar" && <NumberField parameter={parameter} text={significant(Number(value))} disabled={!used} />}
+      <Remark parameter={parameter} used={used} predicted={predicted} />
+      {isBeyond(parameter, value) && <Beyond parameter={parameter} value={Number(value)} />}
     </div>
+  );
+}
+
+const NO_EFFECT = "With the other parameters as they are, this one changes nothing";
+
+const rangeSaid = ({ low, high }: Parameter): string =>
+  low === null || high === null ? "" : `Range: ${shown(low)} to ${shown(high)}`;
+
+/** What there is to say of the value, in a place that is always kept for it. */
+function Remark({
+  parameter: { name, kind },
+  used,
+  predicted,
+}: {
+  parameter: Parameter;
+  used: boolean;
+  predicted: string;
+}) {
+  const found = reference.value;
+  const limited = atLimit.value.has(name) && used;
+  const longer = limited && edited.value === null && found?.longer.includes(name);
+  return (
+    <span class="remark">
+      {differs(name) ? (
+        <Button
+          kind="quiet"
+          icon="reset"
+          title={`${name} as found: ${shown(found?.parameters?.[name])}`}
+          onClick={() => resetOne(name)}
+        />
+      ) : limited ? (
+        <span
+          class={longer ? "badge warn" : "soft"}
+          role="img"
+          aria-label={longer ? "Range too short" : "at its end"}
+          title={
+            longer ? "A longer Range brings the replica nearer: see why it differs" : "It rests on the end of its Range"
+          }
+        >
+          <Icon name="limit" />
+        </span>
+      ) : (
+        kind !== "scalar" && predicted && <i class="prediction" role="img" aria-label={predicted} title={predicted} />
+      )}
+    </span>
   );
 }
 
@@ -150,14 +167,6 @@ function NumberField({ parameter, text, disabled }: { parameter: Parameter; text
       onChange={(event) => typed(parameter, event.currentTarget)}
       onKeyDown={(event) => takeBack(event, parameter)}
     />
-  );
-}
-
-function NoEffect() {
-  return (
-    <span class="prediction" title="With the other parameters as they are, this one changes nothing">
-      no effect
-    </span>
   );
 }
 
@@ -198,9 +207,10 @@ function takeBack(event: TargetedKeyboardEvent<HTMLInputElement>, parameter: Par
   event.currentTarget.value = now;
 }
 
-function Predicted({ parameter: { name, kind }, value }: { parameter: Parameter; value: Value | null }) {
+/** What the network predicted before the search, and how sure it was. */
+function predictionSaid({ name, kind }: Parameter, value: Value | null): string {
   const found = reference.value;
-  if (value === null || !found) return null;
+  if (value === null || !found) return "";
   const spread = found.spread?.[name];
   const likely = found.likelihood?.[name];
   const best =
@@ -209,17 +219,14 @@ function Predicted({ parameter: { name, kind }, value }: { parameter: Parameter;
       .sort(([, a], [, b]) => b - a)
       .slice(0, 2);
   const sure = best && best[0] && best[0][1] > 0.995;
-  return (
-    <span class="prediction" title="What the network predicted, before the search">
-      <i />
-      {kind === "scalar" || !best
-        ? `${shown(value)}${spread === undefined ? "" : ` ± ${significant(spread, 2)}`}`
-        : best
-            .filter(([, share]) => share > 0.005)
-            .map(([option, share]) => `${readable(option)}${sure ? "" : ` ${percent(share)}`}`)
-            .join(", ")}
-    </span>
-  );
+  const said =
+    kind === "scalar" || !best
+      ? `${shown(value)}${spread === undefined ? "" : ` ± ${significant(spread, 2)}`}`
+      : best
+          .filter(([, share]) => share > 0.005)
+          .map(([option, share]) => `${readable(option)}${sure ? "" : ` ${percent(share)}`}`)
+          .join(", ");
+  return `Predicted before the search: ${said}`;
 }
 
 const readable = (option: string): string => ({ true: "yes", false: "no" })[option] ?? option;

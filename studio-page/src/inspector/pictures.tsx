@@ -1,32 +1,42 @@
-/** Pictures drawn by the server, turned in steps: for browsers without WebGL. */
+/** Pictures drawn by the server, turned in steps: for browsers without WebGL. They follow the parameters. */
 
-import { useSignal } from "@preact/signals";
+import { useSignal, useSignalEffect } from "@preact/signals";
 import { tileOf } from "../state/studio";
 import { Button } from "../ui/controls";
-import { renderUrl } from "../wire/requests";
-import { replica, slug } from "./pair/session";
+import { referenceUrl, replicaUrl } from "../wire/requests";
+import { edited } from "./pair/edits";
+import { beyond, replica, slug } from "./pair/session";
 
 const STEP = 30;
+const ELEVATION = 25;
 
 export function Pictures() {
   const azimuth = useSignal(35);
-  // Reading the replica draws this anew when it changes.
-  void replica.value;
+  const drawn = useSignal<{ open: string; url: string; of: string } | null>(null);
+  useSignalEffect(() => {
+    // A picture is asked for when the replica of these parameters was built, so at most one is under way.
+    void replica.value;
+    const open = slug.value;
+    if (!open) return;
+    const of = { parameters: edited.value, beyond: beyond() };
+    const url = replicaUrl(open, { azimuth: azimuth.value, elevation: ELEVATION }, of);
+    let wanted = true;
+    const image = new Image();
+    image.onload = () => wanted && (drawn.value = { open, url, of: JSON.stringify(of.parameters) });
+    image.src = url;
+    return () => (wanted = false);
+  });
   const open = slug.value;
   if (!open) return null;
+  const shown = drawn.value?.open === open ? drawn.value : null;
   return (
     <div class="pictures">
-      {(["reference", "replica"] as const).map((shape) =>
-        shape === "replica" && !tileOf(open)?.replica ? (
-          <span key={shape} />
-        ) : (
-          <img key={shape} src={renderUrl(open, shape, azimuth.value, 25)} alt={shape} />
-        ),
-      )}
+      <img src={referenceUrl(open, { azimuth: azimuth.value, elevation: ELEVATION })} alt="reference" />
+      {shown && tileOf(open) ? <img src={shown.url} alt="replica" data-of={shown.of} /> : <span />}
       <div class="row">
         <Button icon="left" title="Turn left" onClick={() => (azimuth.value = (azimuth.value + 360 - STEP) % 360)} />
         <Button icon="right" title="Turn right" onClick={() => (azimuth.value = (azimuth.value + STEP) % 360)} />
-        <span class="soft">This browser has no WebGL: pictures of what was found are shown instead.</span>
+        <span class="soft">This browser has no WebGL: the studio draws pictures instead.</span>
       </div>
     </div>
   );

@@ -8,7 +8,7 @@ import { mark } from "../state/actions";
 import { useKeys } from "../state/keys";
 import { go, inspect } from "../state/route";
 import { dimension, marks, tileOf } from "../state/studio";
-import { Button, Segments } from "../ui/controls";
+import { Button, Empty, Segments } from "../ui/controls";
 import type { Slug } from "../wire/messages";
 import { VIEWS } from "../viewer/stage";
 import type { View } from "../viewer/stage";
@@ -29,6 +29,24 @@ import { ToldOf } from "./told";
 import { Space } from "./space";
 
 export function Inspector({ slug }: { slug: Slug }) {
+  return tileOf(slug) ? <Pair slug={slug} /> : <Gone slug={slug} />;
+}
+
+/** An address may name a reference that was there once, or never. */
+function Gone({ slug }: { slug: Slug }) {
+  const close = () => go("collection");
+  useKeys("Inspector", [{ keys: ["Escape"], does: "close", run: close }]);
+  return (
+    <Empty title="There is no such reference">
+      <p>
+        The collection has no <code>{slug}</code>. Its file was renamed or taken away, or the address is wrong.
+      </p>
+      <Button onClick={close}>To the collection</Button>
+    </Empty>
+  );
+}
+
+function Pair({ slug }: { slug: Slug }) {
   const webgl = useSignal(true);
   const flat = dimension.value === 2;
   useEffect(() => {

@@ -1,6 +1,7 @@
 /** How a fit runs. */
 
 import { change } from "../state/actions";
+import { notifying, switchNotifying } from "../state/notifying";
 import { dimension, settings } from "../state/studio";
 import { Select, Toggle } from "../ui/controls";
 import { significant } from "../ui/numbers";
@@ -45,6 +46,12 @@ export function Settings() {
         title="Learn anew, and do not resume the run before"
         on={now.fresh}
         onChange={(fresh) => void change({ fresh })}
+      />
+      <Toggle
+        label="Note when done"
+        title="A note of the browser at the end of a fit, an explanation or an export; the browser asks once"
+        on={notifying.value}
+        onChange={(on) => void switchNotifying(on)}
       />
       <Select
         label="Preset"

@@ -6,6 +6,7 @@ import { Icon } from "../ui/icons";
 import { duration, percent } from "../ui/numbers";
 
 const WHAT: Record<string, string> = {
+  open: "start, and read what it needs",
   sample: "draw parameters and build their shapes",
   render: "draw pictures of the samples",
   train: "learn parameters from pictures",

@@ -2,7 +2,7 @@
 
 import { computed, effect, signal } from "@preact/signals";
 import type { Job, JobKind } from "../wire/messages";
-import { jobs } from "./studio";
+import { jobs, sweep } from "./studio";
 
 const KINDS = Object.keys(jobs) as JobKind[];
 const TICK = 500;
@@ -11,7 +11,7 @@ const now = signal(performance.now());
 /** When the server was heard of each job. */
 const heard: Record<JobKind, number> = { fit: 0, explain: 0, export: 0 };
 const runs = ({ state }: Job) => state === "running" || state === "cancelling";
-const anyRuns = computed(() => KINDS.some((kind) => runs(jobs[kind].value)));
+const anyRuns = computed(() => sweep.value !== null || KINDS.some((kind) => runs(jobs[kind].value)));
 
 for (const kind of KINDS) {
   effect(() => {
@@ -36,6 +36,57 @@ export const elapsed = (kind: JobKind): number => jobs[kind].value.seconds + sil
 
 /** Seconds that the stage of a job has run that is under way. */
 export const elapsedInStage = (kind: JobKind): number => (jobs[kind].value.stages.at(-1)?.seconds ?? 0) + silent(kind);
+
+let sweepHeard = 0;
+effect(() => {
+  if (sweep.value) sweepHeard = performance.now();
+});
+
+export interface Work {
+  what: JobKind | "sweep";
+  stage: string;
+  /** Of the stage, where it has several steps. */
+  steps: { done: number; total: number } | null;
+  remark: string;
+  cancelling: boolean;
+  elapsed: number;
+  /** Seconds that it is likely to take still; null where nobody knows. */
+  left: number | null;
+  /** Of all the work, 0 to 1. */
+  share: number;
+}
+
+/** What is under way: what the author waits for most comes first. */
+export const work = computed((): Work[] => [...KINDS.flatMap(ofJob), ...ofSweep()]);
+
+function ofJob(kind: JobKind): Work[] {
+  const job = jobs[kind].value;
+  if (!runs(job)) return [];
+  const stage = job.stages.at(-1);
+  const [spent, rest] = [elapsed(kind), left(kind)];
+  const ofStage = stage && stage.total > 0 ? stage.done / stage.total : 0;
+  return [
+    {
+      what: kind,
+      stage: stage?.name ?? "open",
+      steps: stage && stage.total > 1 ? stage : null,
+      remark: stage?.remark ?? "",
+      cancelling: job.state === "cancelling",
+      elapsed: spent,
+      left: rest,
+      share: rest === null ? ofStage : spent / Math.max(spent + rest, 0.01),
+    },
+  ];
+}
+
+function ofSweep(): Work[] {
+  if (!sweep.value) return [];
+  const { done, total, seconds } = sweep.value;
+  const since = Math.max(0, now.value - sweepHeard) / 1000;
+  const rest = sweep.value.left === null ? null : Math.max(0, sweep.value.left - since);
+  const told = { stage: done < total / 2 ? "build" : "measure", steps: { done, total }, remark: "", cancelling: false };
+  return [{ what: "sweep", ...told, elapsed: seconds + since, left: rest, share: done / Math.max(1, total) }];
+}
 
 /** Seconds that a job is likely to take still; null where nobody knows. */
 export function left(kind: JobKind): number | null {

@@ -28,13 +28,12 @@ export const NOTED: Record<Judge, number> = { fidelity: 0.1, paper: 0.02 };
 
 /** The largest region of each kind, in words. */
 export function differences(missing: readonly Piece[], surplus: readonly Piece[]): { piece: Piece; words: string }[] {
-  const told = ([piece, ...others]: readonly Piece[], whose: string) => {
+  const told = ([piece, ...others]: readonly Piece[], what: string) => {
     if (!piece) return [];
-    const more = others.length ? `; ${others.length} more` : "";
-    const long = `as long as ${Math.round(100 * piece.size)} % of the shape`;
-    return [{ piece, words: `A region ${whose} ${long} has no counterpart${more}` }];
+    const more = others.length ? `, and ${others.length} more` : "";
+    return [{ piece, words: `${what}: a piece ${Math.round(100 * piece.size)} % as long as the shape${more}` }];
   };
-  return [...told(missing, "of the reference"), ...told(surplus, "of the replica")];
+  return [...told(missing, "Missing"), ...told(surplus, "Too much")];
 }
 
 /** How a reference stands, in a word or two. */

@@ -34,6 +34,15 @@ export function inspect(slug: Slug): void {
 function read(): Route {
   const [head = "", ...tail] = location.hash.slice(1).split("/");
   const rest = tail.join("/") || null;
-  if (head === "inspect" && rest) return { view: "collection", slug: decodeURIComponent(rest), rest: null };
+  if (head === "inspect" && rest) return { view: "collection", slug: decoded(rest), rest: null };
   return { view: VIEWS.find((view) => view === head) ?? "collection", slug: null, rest };
+}
+
+/** An address that was typed may be none: it stands for itself then. */
+function decoded(part: string): string {
+  try {
+    return decodeURIComponent(part);
+  } catch {
+    return part;
+  }
 }

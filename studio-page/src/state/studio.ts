@@ -16,6 +16,7 @@ import type {
   Run,
   Slug,
   State,
+  Sweep,
   Tile,
 } from "../wire/messages";
 import { connect } from "../wire/live";
@@ -38,8 +39,16 @@ export const ready = signal(false);
 export const connected = signal(true);
 /** Why there is no connection, and what to do. */
 export const lost = signal("");
+/** Whether a studio is there that does not know this page. */
+export const startedAnew = signal(false);
 export const version = signal("");
-export const project = signal<State["project"]>({ name: "", folder: "", procedure: "procedure.py", references: "" });
+export const project = signal<State["project"]>({
+  name: "",
+  folder: "",
+  procedure: "procedure.py",
+  references: "",
+  takes_files: false,
+});
 export const dimension = signal<2 | 3>(3);
 export const bench = signal<State["bench"]>("starting");
 export const procedure = signal<Procedure>({
@@ -70,6 +79,8 @@ export const jobs = {
   explain: signal(idle("explain")),
   export: signal(idle("export")),
 };
+/** New replicas that are being built and measured; null while there are none. */
+export const sweep = signal<Sweep | null>(null);
 export const runs = signal<Run[]>([]);
 export const settings = signal<ChosenSettings | null>(null);
 export const marking = signal<Marking>({ marks: [], learned: null, asked: [] });
@@ -105,8 +116,9 @@ export const tileOf = (slug: Slug): Tile | undefined => tiles.value.get(slug);
 export function start(): void {
   connect({
     changed: apply,
-    connected: (why) => {
+    connected: (why, anew) => {
       connected.value = why === null;
+      startedAnew.value = anew;
       lost.value = why ?? "";
     },
   });
@@ -126,6 +138,9 @@ function apply(change: Change): void {
       return;
     case "job":
       jobs[change.job.kind].value = change.job;
+      return;
+    case "sweep":
+      sweep.value = change.sweep;
       return;
     case "runs":
       tellOfOthers(change.runs);
@@ -162,6 +177,7 @@ function replace(state: State): void {
   procedure.value = state.procedure;
   collection.value = state.collection;
   for (const kind of ["fit", "explain", "export"] as const) jobs[kind].value = state.jobs[kind];
+  sweep.value = state.sweep;
   runs.value = state.runs;
   settings.value = state.settings;
   marking.value = state.marking;

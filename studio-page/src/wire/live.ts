@@ -13,8 +13,8 @@ type Explored = ExploringMessage | ExploredMessage;
 
 export interface Listener {
   changed(change: Change): void;
-  /** null, or why there is no connection. */
-  connected(why: string | null): void;
+  /** null, or why there is no connection; and whether a studio is there that does not know this page. */
+  connected(why: string | null, anew: boolean): void;
 }
 
 let socket: WebSocket | null = null;
@@ -31,7 +31,7 @@ export function connect(listener: Listener, wait = FIRST_WAIT): void {
   let next = Math.min(2 * wait, LONGEST_WAIT);
   socket.addEventListener("open", () => {
     next = FIRST_WAIT;
-    listener.connected(null);
+    listener.connected(null, false);
   });
   socket.addEventListener("message", ({ data }: MessageEvent<string | ArrayBuffer>) => {
     if (data instanceof ArrayBuffer) return evaluationListener(decode(data));
@@ -41,17 +41,20 @@ export function connect(listener: Listener, wait = FIRST_WAIT): void {
     else listener.changed(message as Change);
   });
   socket.addEventListener("close", () => {
-    void reason().then((why) => socket?.readyState !== WebSocket.OPEN && listener.connected(why));
+    void isAnew().then(
+      (anew) => socket?.readyState !== WebSocket.OPEN && listener.connected(anew ? ANEW : SILENT, anew),
+    );
     setTimeout(() => connect(listener, next), wait);
   });
 }
 
-/** A studio that was started anew does not know this page any more. */
-async function reason(): Promise<string> {
+const ANEW = "The studio was started anew, and does not know this page.";
+const SILENT = "The studio does not answer. The page connects again by itself.";
+
+/** Whether a studio is there, but another one than the one that opened this page. */
+async function isAnew(): Promise<boolean> {
   const answer = await fetch("/api/state", { headers: keyHeaders() }).catch(() => null);
-  return answer?.status === 401
-    ? "The studio was started anew: open the address that it printed."
-    : "The studio does not answer: is it still running? The page connects again by itself.";
+  return answer?.status === 401;
 }
 
 /** Ask for a replica; the answers come to the one listener. Returns the number that they carry. */

@@ -4,6 +4,7 @@ import { keyHeaders } from "./access";
 import { decode } from "./binary";
 import type { MeshMessage } from "./binary";
 import type {
+  Arrived,
   ChosenSettings,
   CollectionMap,
   Comparison,
@@ -12,6 +13,8 @@ import type {
   Explanation,
   JobKind,
   MarkOrder,
+  Merging,
+  NextStep,
   NoteOrder,
   ExportOrder,
   ParameterTable,
@@ -28,6 +31,7 @@ import type {
   ToldAnswer,
   ToldChange,
   Turn,
+  Values,
 } from "./messages";
 
 export class RequestError extends Error {
@@ -98,13 +102,39 @@ export const requests = {
   compare: (before: string, after: string) => get<Comparison>(`/api/compare?before=${id(before)}&after=${id(after)}`),
   restore: (run: string, digest: string | null) => send<Replaced>("POST", `/api/runs/${id(run)}/restore`, { digest }),
   explanation: () => get<Explanation>("/api/explanation"),
-  applyToCopy: (index: number) => send<Copied>("POST", `/api/suggestions/${index}/apply`, { to: "copy" }),
-  applyToProcedure: (index: number, digest: string | null) =>
-    send<Replaced>("POST", `/api/suggestions/${index}/apply`, { to: "procedure", digest }),
+  next: () => get<NextStep>("/api/next"),
+  merging: (index: number) => get<Merging>(`/api/suggestions/${index}/merge`),
+  /** hunks: the parts that are accepted, of the text with this digest. */
+  applyToCopy: (index: number, digest: string, hunks: number[]) =>
+    send<Copied>("POST", `/api/suggestions/${index}/apply`, { to: "copy", digest, hunks }),
+  applyToProcedure: (index: number, digest: string, hunks: number[]) =>
+    send<Replaced>("POST", `/api/suggestions/${index}/apply`, { to: "procedure", digest, hunks }),
+  /** Put a file among the references. beside: under a free name, where another file has its name. */
+  arrive: async (file: File, beside: boolean) => {
+    const query = new URLSearchParams({ name: file.name, beside: `${beside}` });
+    return (await (await answer(`/api/arrivals?${query}`, { method: "POST", body: file })).json()) as Arrived;
+  },
 };
 
-/** A picture drawn by the server, for browsers without WebGL. */
-export function renderUrl(slug: Slug, shape: "reference" | "replica", azimuth: number, elevation: number, size = 512) {
-  const query = new URLSearchParams({ shape, azimuth: `${azimuth}`, elevation: `${elevation}`, size: `${size}` });
-  return `/api/references/${id(slug)}/render?${query.toString()}`;
+/** From where a picture is drawn, in degrees. */
+export interface Camera {
+  azimuth: number;
+  elevation: number;
 }
+
+/** Of a replica that is drawn: its parameters, null for those that were found, and those of them beyond their Range. */
+export interface Drawn {
+  parameters: Values | null;
+  beyond: string[];
+}
+
+/** A picture of a reference drawn by the server, for browsers without WebGL. */
+export const referenceUrl = (slug: Slug, camera: Camera): string =>
+  `/api/references/${id(slug)}/render?${query(camera, { shape: "reference" })}`;
+
+/** A picture of a replica, or with no slug of a shape of the procedure. */
+export const replicaUrl = (slug: Slug | null, camera: Camera, of: Drawn): string =>
+  `/api/${slug === null ? "procedure" : `references/${id(slug)}`}/render?${query(camera, { shape: "replica", of: JSON.stringify(of) })}`;
+
+const query = ({ azimuth, elevation }: Camera, more: Record<string, string>): string =>
+  new URLSearchParams({ azimuth: `${azimuth}`, elevation: `${elevation}`, size: "512", ...more }).toString();

@@ -97,7 +97,7 @@ class BenchProcess:
         if self._child:
             self._child.send(request)
 
-    async def fetch(self, slug: Slug, what: FetchKind, **details: Any) -> tuple[Any, bytes]:
+    async def fetch(self, slug: Slug | None, what: FetchKind, **details: Any) -> tuple[Any, bytes]:
         """A message about a reference, and a payload; details: see Fetch.
 
         Raises BenchError, Missing where there is no such thing.

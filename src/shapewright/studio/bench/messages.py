@@ -84,9 +84,10 @@ class Fetch(BenchMessage, frozen=True):
     """One thing about a reference is asked for."""
 
     request: int  # number that the reply carries
-    slug: Slug
+    slug: Slug | None  # null for a picture of a shape with parameters, which is of no reference
     what: FetchKind  # a map is of all references, and size is its seed
     parameters: Values | None = None
+    beyond: list[str] = []  # as in Evaluate
     azimuth: float = 0.0
     elevation: float = 0.0
     size: int = 0

@@ -19,7 +19,7 @@ from shapewright.references.reading import Readers
 from shapewright.rendering.cameras import THUMBNAIL
 from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Mesh, Shape
+from shapewright.shapes import Drawing, Mesh, ReferenceShape, Shape
 from shapewright.studio.bench import messages, shape_messages
 from shapewright.studio.bench.exploring.overview import Overview
 from shapewright.studio.bench.gallery import Gallery, Stance
@@ -35,7 +35,7 @@ from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.detail import About
 from shapewright.studio.wire.problems import Problem, of_failure
 from shapewright.studio.wire.requests import Evaluate
-from shapewright.studio.wire.values import Slug, Values
+from shapewright.studio.wire.values import Slug
 
 _LOOKS = "looks"
 """The task that waits for all others."""
@@ -256,22 +256,24 @@ class Bench:
         message: About | DrawingMessage | None = None
         payload, wrong = b"", None
         try:
-            reference = self._references[request.slug]
-            shape = reference.shape
-            if request.what == "about":
-                message = shape_messages.about(reference)
-            elif request.what == "render":
-                shape = self._replica(request.parameters) if request.parameters is not None else shape
+            if request.what == "render":
                 camera = replace(THUMBNAIL, azimuth=request.azimuth, elevation=request.elevation)
-                payload = thumbnail(shape, request.size, camera)
+                payload = thumbnail(self._asked_for(request), request.size, camera)
             else:
-                message, payload = shape_messages.reference_message(shape, request.slug)
+                reference = self._references[request.slug or ""]
+                if request.what == "about":
+                    message = shape_messages.about(reference)
+                else:
+                    message, payload = shape_messages.reference_message(reference.shape, request.slug or "")
         except (KeyError, UnreadableError, ValueError, Broken) as error:
             wrong = str(error)
         self._send(messages.Reply(request=request.request, message=message, error=wrong), payload)
 
-    def _replica(self, parameters: Values) -> Shape:
-        built = self._workshop.build(parameters) if self._workshop.open else None
+    def _asked_for(self, request: messages.Fetch) -> ReferenceShape:
+        """What a picture is of."""
+        if request.parameters is None:
+            return self._references[request.slug or ""].shape
+        built = self._workshop.build(request.parameters, request.beyond) if self._workshop.open else None
         if built is None or built.build.shape is None:
             raise ValueError("there is no replica")
         return built.build.shape

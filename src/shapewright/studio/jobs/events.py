@@ -22,6 +22,9 @@ from shapewright.studio.wire.problems import Problem, ProblemKind, of_error
 from shapewright.studio.wire.values import Values, message_of
 from shapewright.studio.wire.work import Epoch, JobKind, JobResult
 
+OPENING = "open"
+"""The first stage of every job: its program starts, and reads what it needs."""
+
 
 class Event(Struct, frozen=True, kw_only=True, tag=True):
     """Any of them."""
@@ -73,6 +76,10 @@ class Reporter:
     def stage(self, name: str, done: int, total: int) -> None:
         """Report how far a stage is."""
         self.send(Advanced(stage=name, done=done, total=total))
+
+    def opens(self, done: int, total: int, remark: str) -> None:
+        """Report how far the program is with what it needs."""
+        self.send(Advanced(stage=OPENING, done=done, total=total, remark=remark))
 
     def progress(self, progress: Progress) -> None:
         """Report an event of a fit or an explanation."""

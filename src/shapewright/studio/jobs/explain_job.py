@@ -14,6 +14,7 @@ from shapewright.studio.wire.work import JobResult
 
 def explain(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     """Explain a run and put that into its folder."""
+    reporter.opens(0, 2, "reads the run")
     from shapewright.feedback.explanation import explain as explain_iteration
     from shapewright.feedback.record import record_of, write
     from shapewright.runs.folder import previous_run
@@ -24,6 +25,7 @@ def explain(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     run, origin = Path(request["run"]), Origin(**request["origin"])
     iteration = Iteration.load(run)
     procedure = procedure_of(run, iteration)
+    reporter.opens(1, 2, "reads the references")
     explanation = explain_iteration(iteration, procedure, collection(origin), reporter.progress, cache_folder())
     write(run, record_of(explanation), previous_run(run, set(iteration.names)))
     return JobResult(run=run.name)

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 PREDICTIONS = "predictions.json"
 """In a run's folder: what the network said of every reference before the search, and how sure it was."""
+_OPENS = 3
+"""Steps of the opening: what learns, the procedure, the references."""
 
 
 def collection(origin: Origin, suit: Callable[[Collection], Collection] = lambda whole: whole) -> Collection:
@@ -33,6 +35,7 @@ def collection(origin: Origin, suit: Callable[[Collection], Collection] = lambda
 
 def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     """Fit as the request says and save the run."""
+    reporter.opens(0, _OPENS, "loads what learns")
     from shapewright.fitting.fit import fit as iterate
     from shapewright.fitting.keeping.unfinished import UNFINISHED, Unfinished
     from shapewright.fitting.pictures import suited_to
@@ -43,8 +46,11 @@ def fit(request: Mapping[str, Any], reporter: events.Reporter) -> JobResult:
     from shapewright.settings import Settings
     from shapewright.storage import cache_folder, write_file
 
+    reporter.opens(1, _OPENS, "reads the procedure")
     procedure, settings = load_procedure(request["procedure"]), Settings.from_record(request["settings"])
+    reporter.opens(2, _OPENS, "reads the references")
     references = collection(Origin(**request["origin"]), lambda whole: suited_to(procedure, whole, settings))
+    reporter.opens(3, _OPENS, "begins")
     previous, known = None, None
     if request["previous"]:
         previous = Iteration.load(request["previous"])

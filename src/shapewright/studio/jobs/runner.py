@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from msgspec.structs import replace
 
-from shapewright.studio.jobs.events import Advanced, AnyEvent, Done, Failed, Guessed
+from shapewright.studio.jobs.events import OPENING, Advanced, AnyEvent, Done, Failed, Guessed
+from shapewright.studio.jobs.remaining import left
+from shapewright.studio.project.timings import Took
 from shapewright.studio.wire.child import Child, Frame, on_this_loop
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.work import Job, JobKind, JobStage
@@ -25,6 +27,7 @@ class Runner:
     root: Path  # folder that problems name files relative to
     changed: Callable[[Runner], object]  # called after every change
     guessed: Callable[[Guessed], object]  # called with parameters that are known before the end of a fit
+    _usual: Mapping[str, Took] = field(default_factory=dict)
     _started: float = 0.0
     _stage_started: float = 0.0
     _child: Child | None = None
@@ -42,11 +45,14 @@ class Runner:
         seconds = time.monotonic() - self._started if self.running else self._job.seconds
         return replace(self._job, seconds=round(seconds, 2))
 
-    def start(self, module: str, request: dict[str, Any]) -> None:
-        """Run a program with a request; nothing else of this kind may be running."""
+    def start(self, module: str, request: dict[str, Any], usual: Mapping[str, Took]) -> None:
+        """Run a program with a request; nothing else of this kind may be running. usual: what its stages took last."""
         assert not self.running
-        self._job = Job(kind=self.kind, state="running")
-        self._started = time.monotonic()
+        self._usual = usual
+        self._job = Job(kind=self.kind, state="running", left=left([], usual))
+        self._started = self._stage_started = time.monotonic()
+        # The program takes seconds until it says something.
+        self._job.stages.append(JobStage(name=OPENING, done=0, total=1, remark="", seconds=0.0))
         self._task = asyncio.create_task(self._run(module, request))
         self.changed(self)
 
@@ -88,6 +94,7 @@ class Runner:
             self._job.state = "cancelled"
         else:
             self._job.state, self._job.problem = "failed" if failed else "done", failed
+        self._job.left = None
         self._end_stage(time.monotonic())
         self.changed(self)
 
@@ -111,7 +118,7 @@ class Runner:
         stage = self._job.stages[-1]
         stage.done, stage.total, stage.remark = event.done, event.total, event.remark
         stage.seconds = round(now - self._stage_started, 2)
-        self._job.left = event.left
+        self._job.left = left(self._job.stages, self._usual) if event.left is None else event.left
         if event.losses:
             self._job.curve.append(event.losses)
 

@@ -93,6 +93,14 @@ class Project:
         """Folders of whole runs, oldest first; none that leads out of the project."""
         return [run for run in runs(self.folder / "runs") if run.resolve().is_relative_to(self.folder)]
 
+    @property
+    def is_new(self) -> bool:
+        """Whether nothing was put into it yet: no run, and no file among its own references."""
+        home = Path(self.origin.source)
+        with suppress(OSError):
+            return self.origin.confine is not None and not self.runs and not any(home.iterdir())
+        return False
+
     def home_of_runs(self) -> Path:
         """The folder for new runs. Raises ProjectError for a link, which may lead out of the project."""
         folder = self.folder / "runs"

@@ -21,6 +21,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from shapewright.references.errors import CollectionError
 from shapewright.runs.folder import RunError
 from shapewright.studio.bench.client import BenchError
+from shapewright.studio.project.arrivals import Taken
 from shapewright.studio.project.workspace import Conflict, Missing, ProjectError
 from shapewright.studio.server import routes as api
 from shapewright.studio.server.collection_routes import collection_routes
@@ -79,6 +80,7 @@ def make_app(session: Session, access: Access, page: Path = PAGE) -> Starlette:
         requests.Wrong: _failure(422),
         Conflict: _failure(409, "text", "digest"),
         Refused: _failure(409),
+        Taken: _failure(409, "taken"),
         ProjectError: _failure(409),
         CollectionError: _failure(409),
         RunError: _failure(404),

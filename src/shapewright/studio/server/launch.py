@@ -8,7 +8,7 @@ import os
 import socket
 import threading
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import h11
@@ -17,6 +17,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from shapewright.studio.project.preferences import Preferences
 from shapewright.studio.project.workspace import SCRATCH, Project, ProjectError
+from shapewright.studio.server import kept_access
 from shapewright.studio.server.app import make_app
 from shapewright.studio.server.security import LOOPBACK, MOST_BYTES, SECONDS, Access
 from shapewright.studio.session.session import Session
@@ -34,19 +35,28 @@ def serve(
     allow_remote: bool = False,
     browser: bool = True,
     started: Callable[[str], object] = lambda address: None,
+    keep_token: bool = False,
 ) -> None:
     """Serve a project until interrupted. started: called with the address, the token in it, as soon as it answers.
 
-    port: None for PORT or, where that is taken, any. Raises ProjectError when the port is taken, and for an address
-    that others can reach unless ``allow_remote``.
+    port: None for PORT or, where that is taken, any. keep_token: whether the next start has the same secrets, and the
+    same port if it is free, so that pages that are open then go on. Raises ProjectError when the port is taken, and for
+    an address that others can reach unless ``allow_remote``.
     """
     if host not in LOOPBACK and not allow_remote:
         raise ProjectError(
             f"--host {host}: others could reach the studio there, and whoever has its token can run code as you; "
             "add --allow-remote if that is what you want"
         )
-    listening = _listen(host, port)
-    access = Access(host, listening.getsockname()[1])
+    before = kept_access.kept(project) if keep_token else None
+    usual = (before.port, PORT, 0) if before else (PORT, 0)
+    listening = _listen(host, usual if port is None else (port,))
+    own_port = listening.getsockname()[1]
+    access = before.access(host, own_port) if before else Access(host, own_port)
+    if keep_token:
+        kept_access.keep(project, access)
+    else:
+        kept_access.forget(project)
     config = uvicorn.Config(
         make_app(Session(project, preferences), access),
         log_level="warning",
@@ -111,10 +121,11 @@ class _Announcing(uvicorn.Server):
         self._announce()
 
 
-def _listen(host: str, port: int | None) -> socket.socket:
+def _listen(host: str, ports: Sequence[int]) -> socket.socket:
+    """A socket that listens on the first of these ports that is free, 0 for any."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     reasons = []
-    for number in (PORT, 0) if port is None else (port,):
+    for number in ports:
         listening = socket.socket(family, socket.SOCK_STREAM)
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:

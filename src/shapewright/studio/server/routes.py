@@ -14,7 +14,10 @@ from starlette.routing import Route
 
 from shapewright.procedures import source_digest
 from shapewright.studio.bench.client import BenchError
+from shapewright.studio.guidance import suggested
+from shapewright.studio.guidance.next_step import next_step
 from shapewright.studio.project.workspace import Missing, Project, ProjectError
+from shapewright.studio.server.uploads import receive
 from shapewright.studio.session import queries
 from shapewright.studio.session.history import comparison, source_of
 from shapewright.studio.session.session import Session
@@ -29,7 +32,8 @@ KEEP = {"cache-control": "private, max-age=31536000, immutable"}
 """Headers of what never changes."""
 _NO_STORE = {"cache-control": "no-store"}
 _ASIDE = {"content-security-policy": "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox"}
-_DOWNLOADS = {"report.html": "text/html", "parameters.csv": "text/csv", "parameters.json": "application/json"}
+_REPORT = "report.html"
+_DOWNLOADS = {_REPORT: "text/html", "parameters.csv": "text/csv", "parameters.json": "application/json"}
 _NO_REVISION = Missing("there is no such change of the procedure any more")
 _PICTURES = {".png": "image/png", ".svg": "image/svg+xml", ".glb": "model/gltf-binary"}
 
@@ -43,8 +47,10 @@ def routes(session: Session) -> list[Route]:
         api("pictures/{digest}.png", partial(_picture, session)),
         api("references/{slug}", partial(_reference, session)),
         api("references", partial(_tell, session), "PATCH", requests.TellOrder),
+        api("arrivals", partial(receive, project), "POST"),
         api("references/{slug}/shape", partial(_shape, session)),
         api("references/{slug}/render", partial(_render, session)),
+        api("procedure/render", partial(_render, session)),
         api("source", lambda _: _source(project)),
         api("source", lambda _, edit: _replaced(project, edit.text, edit.digest, "editor"), "PUT", requests.SourceEdit),
         api("source/copy", lambda _, order: _copied(project, order.text), "POST", requests.CopyOrder),
@@ -63,7 +69,9 @@ def routes(session: Session) -> list[Route]:
         api("runs/{run}/files/{path:path}", partial(_run_file, project)),
         api("runs/{run}/{name}", partial(_run_download, project)),
         api("compare", partial(_compare, session)),
+        api("next", lambda _: next_step(session.display.board, session.display.explanation)),
         api("explanation", lambda _: queries.explanation(session)),
+        api("suggestions/{index:int}/merge", lambda request: suggested.merging(session, request.path_params["index"])),
         api("suggestions/{index:int}/apply", partial(_apply, session), "POST", requests.ApplyOrder),
     ]
 
@@ -107,15 +115,23 @@ async def _shape(session: Session, request: Request) -> Any:
 
 
 async def _render(session: Session, request: Request) -> Any:
-    slug, query = _slug(session, request), request.query_params
+    """A picture of a reference, or of a replica: with the parameters that are given, else as it is shown."""
+    query = request.query_params
+    slug = _slug(session, request) if "slug" in request.path_params else None
     side = requests.one_of(query.get("shape", "replica"), "shape", ("reference", "replica"))
-    parameters = session.display.board.references[slug].parameters if side == "replica" else None
-    if side == "replica" and parameters is None:
-        raise Missing(f"there is no replica of {slug} yet")
+    shown = session.display.board.references[slug].parameters if slug is not None else None
+    parameters, given = None, requests.decode(query.get("of", "{}"), requests.Given)
+    if side == "replica":
+        if given.parameters is None and shown is None and slug is not None:
+            raise Missing(f"there is no replica of {slug} yet")
+        parameters = session.authored.values(shown, given.parameters)
+    elif slug is None:
+        raise requests.Wrong("a reference has a name")
     _, payload = await session.bench.process.fetch(
         slug,
         "render",
         parameters=parameters,
+        beyond=given.beyond,
         azimuth=requests.number(query.get("azimuth"), 35.0, -3600.0, 3600.0),
         elevation=requests.number(query.get("elevation"), 25.0, -90.0, 90.0),
         size=int(requests.number(query.get("size"), 512, 16, 1024)),
@@ -209,7 +225,11 @@ def _run_download(project: Project, request: Request) -> Response:
     if name not in _DOWNLOADS:
         raise Missing(f"there is no {name}")
     file = project.run_file(request.path_params["run"], name)
-    return FileResponse(file, media_type=_DOWNLOADS[name], filename=f"{file.parent.name}-{name}", headers=_ASIDE)
+    seen = "inline" if name == _REPORT else "attachment"  # a report is a page that opens
+    named = f"{file.parent.name}-{name}"
+    return FileResponse(
+        file, media_type=_DOWNLOADS[name], filename=named, headers=_ASIDE, content_disposition_type=seen
+    )
 
 
 def _compare(session: Session, request: Request) -> Comparison:
@@ -220,7 +240,7 @@ def _compare(session: Session, request: Request) -> Comparison:
 
 
 def _apply(session: Session, request: Request, order: requests.ApplyOrder) -> requests.Replaced | requests.Copied:
-    text, title = queries.applied(session, request.path_params["index"])
+    text, title = suggested.applied(session, request.path_params["index"], order.hunks, order.digest)
     if order.to == "procedure":
         return _replaced(session.project, text, order.digest, "suggestion", title)
     return _copied(session.project, text)

@@ -25,10 +25,14 @@ from urllib.parse import parse_qs
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from shapewright.studio.project.arrivals import MOST_BYTES as MOST_FILE_BYTES
+
 MOST_BYTES = 2**20
 """Of a request's body."""
 SECONDS = 10.0
 """That the head of a request has to arrive, and then its body."""
+FILES, SLOWEST = "/api/arrivals", 2**20
+"""Where files arrive, which may be larger; and bytes a second that these have to come with at least."""
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; img-src 'self' data: blob:; "
@@ -46,7 +50,7 @@ _HEADERS = {
 KEY, PROTOCOL = "x-shapewright-key", "shapewright"
 """The header that has the page's key; and the protocol of its WebSockets, which offer the key as another protocol."""
 _SHOWN = re.compile(
-    r"/|/assets/.*|/api/(pictures|exports)/.*|/api/references/[^/]+/render"
+    r"/|/assets/.*|/api/(pictures|exports)/.*|/api/(references/[^/]+|procedure)/render"
     r"|/api/runs/[^/]+/(files/.*|report\.html|parameters\.csv|parameters\.json)"
 )
 """Paths that browsers ask for by themselves, as pictures and links, and so without the key."""
@@ -168,22 +172,22 @@ class Guard:
             return 401, "open the address with the token that `shapewright studio` printed"
         if not reads and "origin" not in headers and not access.bears_token(headers):
             return 403, "a request that changes something needs an Origin"
-        if _length(headers) > MOST_BYTES:
-            return 413, f"more than {MOST_BYTES} bytes"
+        if _length(headers) > (most := _most(scope)):
+            return 413, f"more than {most} bytes"
         return None
 
     async def _pass_limited(self, scope: Scope, receive: Receive, send: Send, headers: Headers) -> None:
         """Let a request through, as long as its body is not longer than it may be, and comes in time."""
-        taken, started, whole = 0, False, False
+        taken, started, whole, most = 0, False, False, _most(scope)
         end = asyncio.get_running_loop().time() + SECONDS
 
         async def limited() -> Message:
             nonlocal taken, whole
-            async with asyncio.timeout_at(None if whole else end):
+            async with asyncio.timeout_at(None if whole else end + taken / SLOWEST):
                 message = await receive()
             whole = not message.get("more_body", False)
             taken += len(message.get("body", b""))
-            if taken > MOST_BYTES:
+            if taken > most:
                 raise _TooLarge
             return message
 
@@ -196,7 +200,7 @@ class Guard:
             await self.app(scope, limited, noted)
         except _TooLarge:
             if not started:
-                await _answer(send, 413, f"more than {MOST_BYTES} bytes")
+                await _answer(send, 413, f"more than {most} bytes")
         except TimeoutError:
             if not started:
                 await _answer(send, 408, f"a request has {SECONDS:g} seconds to arrive")
@@ -204,6 +208,11 @@ class Guard:
 
 class _TooLarge(Exception):
     """A body went on for longer than it may."""
+
+
+def _most(scope: Scope) -> int:
+    """Bytes that the body of a request may have."""
+    return MOST_FILE_BYTES if scope["path"] == FILES and scope.get("method") == "POST" else MOST_BYTES
 
 
 def _same(given: str | None, secret: str) -> bool:
@@ -242,7 +251,7 @@ def _cookie(headers: Headers, name: str) -> str | None:
 
 def _length(headers: Headers) -> int:
     value = headers.get("content-length", "0")
-    return int(value) if value.isdecimal() else MOST_BYTES + 1
+    return int(value) if value.isdecimal() else MOST_FILE_BYTES + 1
 
 
 def _is_wildcard(host: str) -> bool:

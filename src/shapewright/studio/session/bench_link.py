@@ -21,6 +21,7 @@ from shapewright.studio.bench.messages import (
     References,
     SweepOrder,
 )
+from shapewright.studio.jobs.sweeps import Sweeps
 from shapewright.studio.project.authored import Authored
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.session.display import Display
@@ -40,6 +41,7 @@ class BenchLink:
         authored: Authored,
         display: Display,
         pages: Pages,
+        sweeps: Sweeps,
         heard: Callable[[News, bytes], object],
         changed: Callable[[], object],
     ) -> None:
@@ -49,6 +51,7 @@ class BenchLink:
         changed: called whenever the state of the process does.
         """
         self._project, self._authored, self._display, self._pages = project, authored, display, pages
+        self._sweeps = sweeps
         self.process = BenchProcess(heard, self._answered, changed)
         self._waiting: dict[int, Evaluate] = {}
         self._first: list[Slug] = []
@@ -105,11 +108,13 @@ class BenchLink:
     def sweep(self, stage: Stage, items: Mapping[Slug, Values]) -> None:
         """Show replicas with these parameters."""
         number = self._display.begin_sweep(stage, list(items))
+        self._sweeps.begin(number, len(items))
         self.process.ask(SweepOrder(sweep=number, items=dict(items)))
 
     def guess(self, stage: Stage, items: Mapping[Slug, Values]) -> None:
         """Show replicas with these parameters, where they are better than what is shown, or than the defaults."""
         number, shown = self._display.begin_sweep(stage, list(items)), self._display.board.parameters
+        self._sweeps.stop()  # what a fit guesses belongs to the fit
         least = {slug: self._authored.values(shown.get(slug)) for slug in items}
         self.process.ask(SweepOrder(sweep=number, items=dict(items), least=least))
 

@@ -12,6 +12,7 @@ from shapewright.progress import AnswerKind
 from shapewright.settings import Settings
 from shapewright.studio.jobs.events import Guessed
 from shapewright.studio.jobs.runner import Runner
+from shapewright.studio.project.timings import Timings
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.session.bench_link import BenchLink
 from shapewright.studio.session.display import Display
@@ -34,12 +35,19 @@ class JobList:
     """One runner for each kind of job."""
 
     def __init__(
-        self, project: Project, display: Display, bench: BenchLink, pages: Pages, ended: Callable[[Job], object]
+        self,
+        project: Project,
+        display: Display,
+        bench: BenchLink,
+        pages: Pages,
+        timings: Timings,
+        ended: Callable[[Job], object],
     ) -> None:
         """Prepare all runners.
 
         ended: called with every job that has ended.
         """
+        self._timings = timings
         self._project, self._display, self._bench, self._pages, self._ended = project, display, bench, pages, ended
         self._runners = {kind: Runner(kind, project.folder, self._changed, self._guessed) for kind in KINDS}
         self._tasks: set[asyncio.Task[Any]] = set()
@@ -105,12 +113,14 @@ class JobList:
     def _start(self, kind: JobKind, request: dict[str, Any]) -> None:
         if self._runners[kind].running:
             raise Refused(f"{kind} is running already; cancel it first")
-        self._runners[kind].start(_PROGRAM.format(kind), request)
+        self._runners[kind].start(_PROGRAM.format(kind), request, self._timings.of(kind))
 
     def _changed(self, runner: Runner) -> None:
         job = runner.job()
         self._pages.publish(JobChanged(job=job))
         if not runner.running:
+            if job.state == "done":
+                self._timings.note(job.kind, job.stages)
             self._ended(job)
 
     def _guessed(self, event: Guessed) -> None:

@@ -9,13 +9,11 @@ from urllib.parse import quote
 
 import msgspec
 
-from shapewright.procedures import source_digest
 from shapewright.runs.folder import read_json, read_record
 from shapewright.studio.jobs.fit_job import PREDICTIONS
 from shapewright.studio.project.telling import told
 from shapewright.studio.project.workspace import Missing
 from shapewright.studio.session.history import source_of
-from shapewright.studio.session.job_list import Refused
 from shapewright.studio.session.session import Session
 from shapewright.studio.wire.collection import Parameter
 from shapewright.studio.wire.detail import About, Explanation, Reference
@@ -78,29 +76,6 @@ def explanation(session: Session) -> Explanation:
     summary = [{**cause, **_by_slug(cause, slugs)} for cause in record.get("summary", [])]
     passed_on: Any = {**record, "references": named, "suggestions": suggestions, "summary": summary}
     return cast(Explanation, passed_on)
-
-
-def applied(session: Session, index: int) -> tuple[str, str]:
-    """The procedure's text as it is now with a suggestion for the run that is shown; and the suggestion's title.
-
-    Raises Missing for one that is not there, Refused where it does not fit what the author has written since.
-    """
-    from shapewright.feedback.writing.change import FileChange  # libcst loads slowly
-    from shapewright.feedback.writing.source import EditError
-
-    suggestions, run = explanation(session)["suggestions"], session.display.run
-    given: Mapping[str, Any] = suggestions[index] if index < len(suggestions) else {}
-    if run is None or not isinstance(given.get("source"), str):
-        raise Missing("this suggestion has no procedure to apply")
-    before, (now, _) = source_of(run), session.project.read_source()
-    if source_digest(before) == source_digest(now):
-        return str(given["source"]), str(given["title"])
-    try:
-        return FileChange.from_record(given.get("change") or {}).merged(before, now), str(given["title"])
-    except EditError as error:
-        raise Refused(
-            f"{error}. Write it by hand from the snippet, or fit and explain the file as it is now."
-        ) from error
 
 
 def _suggestion(given: Mapping[str, Any], run: Path, slugs: Mapping[str, str]) -> dict[str, Any]:

@@ -13,8 +13,10 @@ from shapewright.runs.folder import EXPLANATION
 from shapewright.storage import cache_folder
 from shapewright.studio.bench import messages
 from shapewright.studio.bench.client import BenchError
+from shapewright.studio.jobs.sweeps import Sweeps
 from shapewright.studio.project.authored import Authored
 from shapewright.studio.project.preferences import Preferences
+from shapewright.studio.project.timings import Timings
 from shapewright.studio.project.watch import watch
 from shapewright.studio.project.workspace import Missing, Project, ProjectError
 from shapewright.studio.session.bench_link import BenchLink
@@ -47,10 +49,14 @@ class Session:
         self.duplicates: list[Duplicate] = []
         self.authored = Authored(project)
         self.display = Display(project, self.pages, cache_folder(), partial(self.problems.report, "shapes"))
-        self.bench = BenchLink(project, self.authored, self.display, self.pages, self._heard, self._bench_changed)
+        timings = Timings(project)
+        self.sweeps = Sweeps(timings, lambda sweep: self.pages.publish(changes.SweepChanged(sweep=sweep)))
+        self.bench = BenchLink(
+            project, self.authored, self.display, self.pages, self.sweeps, self._heard, self._bench_changed
+        )
         self.choices = Choices(project, preferences, self.display, self.pages, self.problems, self._measure_anew)
         self.curation = Curation(project, self.display, self.bench, self.pages, self.problems, self.references_changed)
-        self.jobs = JobList(project, self.display, self.bench, self.pages, self._job_ended)
+        self.jobs = JobList(project, self.display, self.bench, self.pages, timings, self._job_ended)
 
     async def run(self) -> None:
         """Open the project, then serve until cancelled; ends all processes at the end."""
@@ -84,12 +90,14 @@ class Session:
                 folder=str(project.folder),
                 procedure=project.procedure.name,
                 references=project.origin.source,
+                takes_files=project.origin.confine is not None,
             ),
             dimension=self.display.listed.dimension,
             bench=self.bench.process.state,
             procedure=self._procedure(),
             collection=self.display.board.collection(),
             jobs=self.jobs.jobs(),
+            sweep=self.sweeps.sweep(),
             runs=self.runs(),
             settings=self.choices.preferences.message(),
             marking=self.choices.marking(),
@@ -173,6 +181,7 @@ class Session:
 
     def _show(self, run: Path | None) -> None:
         """Show a run, and ask for its marks."""
+        self.sweeps.stop()
         self.display.show(run, self.standard)
         self.bench.run_shown(self.choices.settings)
         self.choices.publish_marks()
@@ -182,9 +191,11 @@ class Session:
             self.display.relist()
             self.problems.report("references", [])
         except CollectionError as error:
-            self.problems.report("references", [Problem("references", str(error))])
+            alarm = not self.project.is_new  # the page says what to do first
+            self.problems.report("references", [Problem("references", str(error))] if alarm else [])
 
     def _read_source(self, saved: bool) -> None:
+        self.sweeps.stop()  # the bench gives up what it does for the version before
         try:
             self.authored.read(saved)
         except ProjectError as error:
@@ -203,6 +214,7 @@ class Session:
     # What the bench says
 
     def _bench_changed(self) -> None:
+        self.sweeps.stop()
         self.pages.publish(self.state())
         if self.bench.process.state == "ready":
             self._measure_anew()
@@ -221,6 +233,14 @@ class Session:
                     self._break(message.problem)
             case _:
                 self.display.take(message, payload)
+                self._count(message)
+
+    def _count(self, message: messages.News) -> None:
+        match message:
+            case messages.Swept() | messages.Measured():
+                self.sweeps.step(message.sweep, isinstance(message, messages.Measured))
+            case messages.SweepEnded():
+                self.sweeps.end(message.sweep)
 
     def _take_version(self, loaded: messages.Loaded) -> None:
         """Show the new version: a run of it where there is one, else the replicas of before, carried over."""

@@ -12,7 +12,7 @@ from shapewright.studio.wire.judgement import Judge, Marking
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.revisions import Noted
 from shapewright.studio.wire.values import Message, Slug
-from shapewright.studio.wire.work import Job, JobKind, Run
+from shapewright.studio.wire.work import Job, JobKind, Run, Sweep
 
 BenchState: TypeAlias = Literal["starting", "ready", "restarting"]
 
@@ -24,6 +24,7 @@ class ProjectNames(Struct, frozen=True, kw_only=True):
     folder: str
     procedure: str
     references: str
+    takes_files: bool  # whether the page may put files among the references
 
 
 class ChosenSettings(Struct, frozen=True, kw_only=True):
@@ -58,6 +59,7 @@ class State(Message, frozen=True, kw_only=True, tag="state"):
     procedure: Procedure
     collection: Collection
     jobs: dict[JobKind, Job]
+    sweep: Sweep | None  # null while none runs
     runs: list[Run]  # the oldest first
     settings: ChosenSettings
     marking: Marking
@@ -89,6 +91,12 @@ class JobChanged(Message, frozen=True, kw_only=True, tag="job"):
     """Replaces the job of this kind."""
 
     job: Job
+
+
+class SweepChanged(Message, frozen=True, kw_only=True, tag="sweep"):
+    """Replaces ``State.sweep``."""
+
+    sweep: Sweep | None
 
 
 class RunsChanged(Message, frozen=True, kw_only=True, tag="runs"):
@@ -145,6 +153,7 @@ Change: TypeAlias = Annotated[
     | TilesChanged
     | CollectionChanged
     | JobChanged
+    | SweepChanged
     | RunsChanged
     | MarksChanged
     | NotedChanged

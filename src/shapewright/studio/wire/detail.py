@@ -144,6 +144,26 @@ class Explanation(TypedDict):
     seconds: NotRequired[dict[str, float]]  # by stage
 
 
+class BestChange(Struct, frozen=True, kw_only=True):
+    """The change of the procedure that brought most of those that were tried."""
+
+    title: str
+    gain: int  # references that become replicated
+    nearer: int  # misfits that come nearer, these included
+    suggestion: int | None  # its place among the suggestions; null for one that is not suggested
+
+
+class NextStep(Struct, frozen=True, kw_only=True):
+    """What a run leaves to do."""
+
+    group: Slug | None  # representative of the largest group that is not replicated
+    members: int  # of that group
+    lacks: float | None  # longest piece that the representative's replica lacks, as a share of the shape
+    longest: Slug | None  # the reference with the longest region that its replica does not explain
+    length: float | None  # of that region, as a share of the shape
+    best: BestChange | None  # null before an explanation, and where none brought anything
+
+
 class ParameterRow(Struct, frozen=True, kw_only=True):
     """The parameters of one replica."""
 

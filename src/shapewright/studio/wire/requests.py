@@ -71,6 +71,13 @@ PageMessage: TypeAlias = Annotated[Evaluate | Explore | Visible, Meta(title="Pag
 """What the page sends over the WebSocket."""
 
 
+class Given(Order, frozen=True):
+    """Of what replica a picture is asked for."""
+
+    parameters: Values | None = None  # null for those that are shown
+    beyond: list[str] = []  # as in Evaluate
+
+
 class SourceEdit(Order, frozen=True):
     """A new text of the procedure."""
 
@@ -156,6 +163,7 @@ class ApplyOrder(Order, frozen=True):
 
     to: Literal["copy", "procedure"]
     digest: str | None = None  # as in SourceEdit
+    hunks: list[int] | None = None  # numbers of the parts that are accepted, of the text with this digest; null for all
 
 
 class Source(Struct, frozen=True, kw_only=True):
@@ -181,6 +189,14 @@ class Copied(Struct, frozen=True, kw_only=True):
     text: str
 
 
+class Arrived(Struct, frozen=True, kw_only=True):
+    """A file of a reference was put into the project."""
+
+    path: str  # its name in the folder of references
+    bytes: int
+    there: bool  # the same file was there already, and stays
+
+
 def _words(kind: Any) -> str:
     return ", ".join(get_args(get_args(kind)[0]))
 
@@ -189,6 +205,7 @@ _SHOULD: Mapping[Any, str] = {
     Evaluate | Explore | Visible: "type is evaluate, explore or visible; id is a whole number, slugs is a list of "
     "strings, parameters, locked and base are mappings of names to values, beyond and vary are lists of names; "
     f"count lies between 1 and {MOST_SHAPES}, seed is a whole number from 0 on, two parameters vary at most",
+    Given: "parameters are a mapping of names to values, or null, beyond is a list of names",
     SourceEdit: "text is a string, digest is a string or null",
     CopyOrder: "text is a string",
     FitOrder: "fresh is true or false",
@@ -203,7 +220,7 @@ _SHOULD: Mapping[Any, str] = {
     TurnOrder: f"slugs is a list of references; turn is one of {_words(Turn)}",
     CancelOrder: f"kind is one of {_words(JobKind)}",
     RestoreOrder: "digest is a string or null",
-    ApplyOrder: "to is copy or procedure, digest is a string or null",
+    ApplyOrder: "to is copy or procedure, digest is a string or null, hunks is a list of whole numbers or null",
     MarkOrder: "a mark has a, b (slugs of references) and same (true, false or null)",
     dict[str, Any]: "send a JSON object",
 }

@@ -1,4 +1,4 @@
-"""What the author writes and says, which can be undone: the procedure's text, and notes of references."""
+"""What the author writes and says, which can be undone: the text, and notes of references; and suggestions."""
 
 from __future__ import annotations
 
@@ -30,6 +30,23 @@ class RevisionDetail(Struct, frozen=True, kw_only=True):
 
     revision: Revision
     diff: list[DiffLine]  # whole
+
+
+class Hunk(Struct, frozen=True, kw_only=True):
+    """A part of a suggestion, to be accepted alone."""
+
+    number: int  # from 0
+    lines: list[DiffLine]  # that it changes in the file as it is now, and those around them
+    there: bool  # the file has it already
+    refused: str | None  # why it does not fit what was written since; null where it does
+
+
+class Merging(Struct, frozen=True, kw_only=True):
+    """A suggestion in the file as it is now."""
+
+    digest: str  # of the file's text, which its parts are of
+    hunks: list[Hunk]  # in the order of the file; empty where the file has all of it
+    refused: str | None  # why it does not fit as a whole; null where it does
 
 
 class Noted(Struct, frozen=True, kw_only=True):

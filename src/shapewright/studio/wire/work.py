@@ -51,13 +51,22 @@ class Job(Struct, kw_only=True):
 
     kind: JobKind
     state: JobState = "idle"
-    stages: list[JobStage] = []  # in order; the last one is running. A stage may come again.
+    stages: list[JobStage] = []  # in order, "open" first; the last one is running. A stage may come again.
     curve: list[Epoch] = []  # of a fit
     answer: Answer | None = None  # of a fit: the newest early answer
     seconds: float = 0.0
     left: float | None = None  # seconds that it is likely to take still; null where nobody knows
     problem: Problem | None = None
     result: JobResult | None = None
+
+
+class Sweep(Struct, frozen=True, kw_only=True):
+    """New replicas of the collection, of which each is built and then measured."""
+
+    done: int  # steps
+    total: int  # steps: two for each replica
+    seconds: float
+    left: float | None  # seconds that it is likely to take still; null where nobody knows
 
 
 class Run(Struct, frozen=True, kw_only=True):

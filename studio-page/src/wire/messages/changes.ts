@@ -1,7 +1,7 @@
 // Made from src/shapewright/studio/wire/changes.py by `python tools/message_types.py`.
 
 import type { Collection, Duplicate, Procedure, Tile } from "./collection";
-import type { Job, JobKind, Run } from "./work";
+import type { Job, JobKind, Run, Sweep } from "./work";
 import type { Judge, Marking } from "./judgement";
 import type { Noted } from "./revisions";
 import type { Problem } from "./problems";
@@ -13,6 +13,8 @@ export interface ProjectNames {
   folder: string;
   procedure: string;
   references: string;
+  /** whether the page may put files among the references. */
+  takes_files: boolean;
 }
 
 /** What the author chose. */
@@ -49,6 +51,8 @@ export interface State {
   procedure: Procedure;
   collection: Collection;
   jobs: Record<JobKind, Job>;
+  /** null while none runs. */
+  sweep: Sweep | null;
   /** the oldest first. */
   runs: Run[];
   settings: ChosenSettings;
@@ -85,6 +89,12 @@ export interface CollectionChanged {
 export interface JobChanged {
   type: "job";
   job: Job;
+}
+
+/** Replaces ``State.sweep``. */
+export interface SweepChanged {
+  type: "sweep";
+  sweep: Sweep | null;
 }
 
 /** Replaces ``State.runs``. */
@@ -135,4 +145,4 @@ export interface WrongMessage {
   error: string;
 }
 
-export type Change = State | ProcedureChanged | TilesChanged | CollectionChanged | JobChanged | RunsChanged | MarksChanged | NotedChanged | DuplicatesChanged | SettingsChanged | ProblemsChanged | ExplanationChanged | WrongMessage;
+export type Change = State | ProcedureChanged | TilesChanged | CollectionChanged | JobChanged | SweepChanged | RunsChanged | MarksChanged | NotedChanged | DuplicatesChanged | SettingsChanged | ProblemsChanged | ExplanationChanged | WrongMessage;

@@ -140,6 +140,33 @@ export interface Explanation {
   seconds?: Record<string, number>;
 }
 
+/** The change of the procedure that brought most of those that were tried. */
+export interface BestChange {
+  title: string;
+  /** references that become replicated. */
+  gain: number;
+  /** misfits that come nearer, these included. */
+  nearer: number;
+  /** its place among the suggestions; null for one that is not suggested. */
+  suggestion: number | null;
+}
+
+/** What a run leaves to do. */
+export interface NextStep {
+  /** representative of the largest group that is not replicated. */
+  group: Slug | null;
+  /** of that group. */
+  members: number;
+  /** longest piece that the representative's replica lacks, as a share of the shape. */
+  lacks: number | null;
+  /** the reference with the longest region that its replica does not explain. */
+  longest: Slug | null;
+  /** of that region, as a share of the shape. */
+  length: number | null;
+  /** null before an explanation, and where none brought anything. */
+  best: BestChange | null;
+}
+
 /** The parameters of one replica. */
 export interface ParameterRow {
   slug: Slug;

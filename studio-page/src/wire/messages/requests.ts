@@ -52,6 +52,14 @@ export interface Visible {
 
 export type PageMessage = Evaluate | Explore | Visible;
 
+/** Of what replica a picture is asked for. */
+export interface Given {
+  /** null for those that are shown. */
+  parameters?: Values | null;
+  /** as in Evaluate. */
+  beyond?: string[];
+}
+
 /** A new text of the procedure. */
 export interface SourceEdit {
   text: string;
@@ -138,6 +146,8 @@ export interface ApplyOrder {
   to: "copy" | "procedure";
   /** as in SourceEdit. */
   digest?: string | null;
+  /** numbers of the parts that are accepted, of the text with this digest; null for all. */
+  hunks?: number[] | null;
 }
 
 /** A text of the procedure. */
@@ -162,4 +172,13 @@ export interface Replaced {
 export interface Copied {
   path: string;
   text: string;
+}
+
+/** A file of a reference was put into the project. */
+export interface Arrived {
+  /** its name in the folder of references. */
+  path: string;
+  bytes: number;
+  /** the same file was there already, and stays. */
+  there: boolean;
 }

@@ -30,6 +30,28 @@ export interface RevisionDetail {
   diff: DiffLine[];
 }
 
+/** A part of a suggestion, to be accepted alone. */
+export interface Hunk {
+  /** from 0. */
+  number: number;
+  /** that it changes in the file as it is now, and those around them. */
+  lines: DiffLine[];
+  /** the file has it already. */
+  there: boolean;
+  /** why it does not fit what was written since; null where it does. */
+  refused: string | null;
+}
+
+/** A suggestion in the file as it is now. */
+export interface Merging {
+  /** of the file's text, which its parts are of. */
+  digest: string;
+  /** in the order of the file; empty where the file has all of it. */
+  hunks: Hunk[];
+  /** why it does not fit as a whole; null where it does. */
+  refused: string | null;
+}
+
 /** What the author notes of one reference. */
 export interface Noted {
   tags: string[];

@@ -41,7 +41,7 @@ export interface JobResult {
 export interface Job {
   kind: JobKind;
   state: JobState;
-  /** in order; the last one is running. A stage may come again. */
+  /** in order, "open" first; the last one is running. A stage may come again. */
   stages: JobStage[];
   /** of a fit. */
   curve: Epoch[];
@@ -52,6 +52,17 @@ export interface Job {
   left: number | null;
   problem: Problem | null;
   result: JobResult | null;
+}
+
+/** New replicas of the collection, of which each is built and then measured. */
+export interface Sweep {
+  /** steps. */
+  done: number;
+  /** steps: two for each replica. */
+  total: number;
+  seconds: number;
+  /** seconds that it is likely to take still; null where nobody knows. */
+  left: number | null;
 }
 
 /** A run in short. */

@@ -56,7 +56,7 @@ class Overview:
     def alike(self, request: messages.Fetch) -> Iterator[None]:
         """Answered at once."""
         try:
-            self._send(messages.Reply(request=request.request, message=self._looks.alike(request.slug)), b"")
+            self._send(messages.Reply(request=request.request, message=self._looks.alike(request.slug or "")), b"")
         except KeyError as error:
             self._send(messages.Reply(request=request.request, error=str(error.args[0])), b"")
         return iter(())

@@ -1,0 +1,1 @@
+"""What comes next: suggestions merged into the author's file, and the next step after a fit."""
