@@ -9,6 +9,7 @@ import "./styles/frame.css";
 import "./styles/collection.css";
 import "./styles/first.css";
 import "./styles/inspector.css";
+import "./styles/stage.css";
 import "./styles/loop.css";
 import "./styles/history.css";
 import "./styles/feedback.css";

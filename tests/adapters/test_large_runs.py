@@ -11,7 +11,7 @@ from shapewright.runs import packed, table
 from shapewright.runs.changes import compare
 from shapewright.runs.folder import RunError, read_record
 from shapewright.runs.iteration import Iteration
-from shapewright.studio.project.picture_store import Pictures
+from shapewright.studio.project.stores.picture_store import Pictures
 
 pytest.importorskip("pyarrow", reason="the extra scale is not installed")
 

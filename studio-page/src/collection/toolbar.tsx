@@ -3,7 +3,8 @@
 import { signal } from "@preact/signals";
 import { createRef } from "preact";
 import { collection, tags, tileOf, unsure } from "../state/studio";
-import { Segments, Select } from "../ui/controls";
+import { laying, saveSheet } from "../files/sheet";
+import { Button, Segments, Select } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { percent } from "../ui/numbers";
 import { GradeMark } from "../ui/picture";
@@ -53,6 +54,7 @@ export function Toolbar() {
           { value: "map", label: "Map", title: "Alike ones near each other, and random shapes among them" },
         ]}
       />
+      <SheetButton />
     </div>
   );
 }
@@ -77,6 +79,11 @@ function TagFilter() {
       onChange={(value) => (tag.value = value)}
     />
   );
+}
+
+function SheetButton() {
+  const title = "Contact sheet: a picture (PNG) of the tiles as they are ordered and filtered now";
+  return <Button icon="sheet" kind="quiet" title={title} disabled={laying.value} onClick={() => void saveSheet()} />;
 }
 
 function Score() {

@@ -4,7 +4,7 @@ import { Segments } from "../ui/controls";
 import { partColour } from "../viewer/paint";
 import { theme } from "../state/theme";
 import { colouring, original, replica, residuals } from "./pair/session";
-import { blend, COLOURS, layout } from "./pair/layout";
+import { blend, COLOURS, layout, under } from "./pair/layout";
 
 export function Legend() {
   const mesh = replica.value;
@@ -35,10 +35,19 @@ export function OverLegend() {
   const colours = COLOURS[theme.value];
   return (
     <p class="legend">
-      <span>
+      <label>
         <i class="swatch" style={{ backgroundColor: colours.reference }} />
         reference
-      </span>
+        <input
+          type="range"
+          aria-label="Opacity of the reference"
+          min={0}
+          max={1}
+          step={0.05}
+          value={under.value}
+          onInput={(event) => (under.value = event.currentTarget.valueAsNumber)}
+        />
+      </label>
       <label>
         <i class="swatch" style={{ backgroundColor: colours.over }} />
         replica

@@ -2,7 +2,7 @@
 
 import type { DrawingMessage } from "../wire/messages";
 import { failure, original, replica } from "./pair/session";
-import { blend, layout } from "./pair/layout";
+import { blend, layout, under } from "./pair/layout";
 
 /** Drawings lie within half a unit of the origin, y up. */
 const FRAME = "-0.54 -0.54 1.08 1.08";
@@ -26,7 +26,7 @@ export function Plane() {
       <Sheet>
         {layout.value === "over" ? (
           <>
-            {reference && <path class="reference" d={reference.path} />}
+            {reference && <path class="reference" d={reference.path} style={{ opacity: under.value }} />}
             {made && <path class={`replica ${stale}`} d={made.path} style={{ opacity: blend.value }} />}
           </>
         ) : (

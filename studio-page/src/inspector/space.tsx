@@ -10,12 +10,13 @@ import { snap } from "../viewer/snapping";
 import { Stage } from "../viewer/stage";
 import type { Side } from "../viewer/stage";
 import type { Surface } from "../viewer/surface";
-import type { MeshMessage } from "../wire/binary";
+import type { ShownMesh } from "./pair/session";
 import { hover, place, points, snapping, tool } from "./measuring/points";
 import { MeasureDrawing } from "./measuring/drawing";
 import { RegionsDrawing } from "./regions-drawing";
 import { colouring, failure, original, replica, residuals } from "./pair/session";
-import { blend, COLOURS, drawn, layout, stage } from "./pair/layout";
+import { blend, COLOURS, drawn, furnished, layout, parallel, section, stage, under, wireframe } from "./pair/layout";
+import { AxisNames } from "./stage/axis-names";
 
 export function Space({ onFail }: { onFail: () => void }) {
   const place_ = useRef<HTMLDivElement>(null);
@@ -39,6 +40,7 @@ export function Space({ onFail }: { onFail: () => void }) {
   return (
     <div class={`space ${tool.value === "off" ? "" : "measuring"}`} ref={place_} data-stage>
       <RegionsDrawing />
+      <AxisNames />
       <MeasureDrawing />
     </div>
   );
@@ -53,21 +55,29 @@ function follow(open: Stage): () => void {
     const over = layout.value !== "beside";
     const ink = new Color().setStyle(colours.ink);
     const failed = failure.value !== null;
-    open.surfaces.reference.dress(1, ink, 0.75);
+    open.surfaces.reference.dress(over ? under.value : 1, ink, 0.75);
     open.surfaces.replica.dress(over ? blend.value : failed ? 0.35 : 1, ink, failed ? 0.25 : 0.75);
     open.arrange(over ? "over" : "beside");
   });
-  const ends = [shape("reference"), shape("replica"), cover("reference"), cover("replica"), dress];
+  const furnish = effect(() => {
+    void [original.value, replica.value]; // the grid lies under both
+    open.furnish(furnished.value, new Color().setStyle(COLOURS[theme.value].net));
+  });
+  const see = effect(() => open.eye.seeIn(parallel.value ? "parallel" : "perspective"));
+  const wire = effect(() => open.wire(wireframe.value));
+  const cut = effect(() => open.section(section.value));
+  const shapes = [shape("reference"), shape("replica"), cover("reference"), cover("replica")];
+  const ends = [...shapes, dress, furnish, see, wire, cut];
   return () => ends.forEach((end) => end());
 }
 
-const message = (side: Side): MeshMessage | null => {
+const message = (side: Side): ShownMesh | null => {
   const found = side === "reference" ? original.value : replica.value;
   return found?.type === "mesh" ? found : null;
 };
 
 function showShape(open: Stage, side: Side): void {
-  open.surfaces[side].show(message(side), plain("#bbbbbb"));
+  open.surfaces[side].show(message(side)?.solid ?? null);
   if (side === "replica") replicaShown();
   open.invalidate();
 }
@@ -80,8 +90,9 @@ function showCover(open: Stage, side: Side): void {
   if (!mesh) return;
   const fine = residuals.value[side];
   if (colouring.value === "distance" && fine) surface.cover(fine, blended(fine.colours));
-  else if (colouring.value === "parts" && mesh.labels) surface.cover(mesh, parts(mesh.labels));
-  else surface.cover(mesh, plain(plainColour));
+  else if (colouring.value === "parts" && mesh.solid.sight.labels)
+    surface.cover(mesh.solid.sight, parts(mesh.solid.sight.labels));
+  else surface.cover(mesh.solid.sight, plain(plainColour));
   open.invalidate();
 }
 

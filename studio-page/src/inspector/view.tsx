@@ -10,8 +10,8 @@ import { go, inspect } from "../state/route";
 import { dimension, marks, tileOf } from "../state/studio";
 import { Button, Empty, Segments } from "../ui/controls";
 import type { Slug } from "../wire/messages";
-import { VIEWS } from "../viewer/stage";
-import type { View } from "../viewer/stage";
+import { VIEWS } from "../viewer/eye";
+import type { View } from "../viewer/eye";
 import { Causes, regionsShown } from "./causes";
 import { Facts, Figures, Judgement, Standing } from "./figures";
 import { LayoutSwitch, Legend, OverLegend } from "./legend";
@@ -23,10 +23,11 @@ import { Pictures } from "./pictures";
 import { DifferenceLegend, Plane } from "./plane";
 import { edited } from "./pair/edits";
 import { colouring, failure, open, original, redo, replica, reset, undo as undoEdit } from "./pair/session";
-import { layout, stage } from "./pair/layout";
+import { furnished, layout, parallel, stage, wireframe } from "./pair/layout";
 import { Steps } from "../history/steps";
 import { ToldOf } from "./told";
 import { Space } from "./space";
+import { StageTools } from "./stage/tools";
 
 export function Inspector({ slug }: { slug: Slug }) {
   return tileOf(slug) ? <Pair slug={slug} /> : <Gone slug={slug} />;
@@ -135,10 +136,11 @@ function SpaceTools() {
       />
       <div class="views">
         {(Object.keys(VIEWS) as View[]).map((view) => (
-          <Button key={view} kind="quiet" title={`Look from: ${view}`} onClick={() => stage.value?.look(view)}>
+          <Button key={view} kind="quiet" title={`Look from: ${view}`} onClick={() => stage.value?.eye.look(view)}>
             {view === "three-quarter" ? "3/4" : view}
           </Button>
         ))}
+        <StageTools />
       </div>
     </>
   );
@@ -172,7 +174,7 @@ function InspectorKeys({ slug, step, close }: { slug: Slug; step: (by: number) =
     const given = marks.value.find(({ a, b }) => a === slug && b === slug)?.same;
     mark(slug, slug, given === same ? null : same);
   };
-  const turn = (right: number, up: number, closer = 1) => stage.value?.turn(right, up, closer);
+  const turn = (right: number, up: number, closer = 1) => stage.value?.eye.turn(right, up, closer);
   useKeys("Inspector", [
     { keys: ["Escape"], does: "stop measuring; close", run: () => (tool.value === "off" ? close() : take("off")) },
     { keys: ["ArrowRight", "n"], does: "next", run: () => step(1) },
@@ -201,7 +203,11 @@ function InspectorKeys({ slug, step, close }: { slug: Slug; step: (by: number) =
     { keys: ["h", "l"], does: "turn", run: ({ key }) => turn(key === "l" ? 15 : -15, 0) },
     { keys: ["j", "k"], does: "tilt", run: ({ key }) => turn(0, key === "k" ? 10 : -10) },
     { keys: ["+", "=", "-"], does: "closer, farther", run: ({ key }) => turn(0, 0, key === "-" ? 0.85 : 1 / 0.85) },
-    { keys: ["0"], does: "look from three quarters", run: () => stage.value?.look("three-quarter") },
+    { keys: ["0"], does: "look from three quarters", run: () => stage.value?.eye.look("three-quarter") },
+    { keys: ["."], does: "fit both shapes to the pane", run: () => stage.value?.fit() },
+    { keys: ["w"], does: "wireframe", run: () => (wireframe.value = !wireframe.value) },
+    { keys: ["g"], does: "grid and axes", run: () => (furnished.value = !furnished.value) },
+    { keys: ["o"], does: "with or without perspective", run: () => (parallel.value = !parallel.value) },
     { keys: ["e"], does: "mark where they differ", run: () => (regionsShown.value = !regionsShown.value) },
     { keys: ["s"], does: "mark the pair as the same", run: () => say(true) },
     { keys: ["x"], does: "mark the pair as different", run: () => say(false) },

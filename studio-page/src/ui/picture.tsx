@@ -2,6 +2,7 @@
 
 import { useRef, useLayoutEffect } from "preact/hooks";
 import type { Grade } from "../wire/messages";
+import { SIGN_PATHS } from "./signs";
 
 /** `tint` null leaves it grey. `dim` is for what is no longer true. */
 export function Picture(props: { url: string | null; tint: string | null; alt: string; dim?: boolean }) {
@@ -25,18 +26,11 @@ export function Picture(props: { url: string | null; tint: string | null; alt: s
   );
 }
 
-const SHAPES: Record<Grade, string> = {
-  replicated: "M5 .500a4.5 4.5 0 1 0 0 9a4.5 4.5 0 0 0 0-9z",
-  close: "M5 .500a4.5 4.5 0 1 0 0 9z",
-  different: "M1.5 1.500l7 7M8.5 1.500l-7 7",
-};
-
-/** A disc for replicated, a half one for close, a cross for different; a ring where nothing is measured. */
+/** A check for replicated, a tilde for close, a cross for different; a ring where nothing is measured. */
 export function GradeMark({ grade }: { grade: Grade | null }) {
   return (
     <svg class={`grade ${grade ?? "none"}`} viewBox="0 0 10 10" role="img" aria-label={grade ?? "not measured"}>
-      {grade !== "replicated" && grade !== "different" && <circle cx={5} cy={5} r={4} />}
-      {grade && <path d={SHAPES[grade]} />}
+      {grade ? <path d={SIGN_PATHS[grade]} /> : <circle cx={5} cy={5} r={4} />}
     </svg>
   );
 }

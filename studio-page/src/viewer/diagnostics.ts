@@ -8,6 +8,7 @@ type Side = "reference" | "replica";
 interface Observed {
   readonly canvas: HTMLCanvasElement;
   readonly objects: Record<"geometries" | "textures" | "programs", number>;
+  readonly faces: Record<Side, { drawn: number; measured: number }>;
   project(point: Vector3, side: Side): { x: number; y: number } | null;
 }
 
@@ -16,6 +17,8 @@ declare global {
     shapewright: {
       /** Contexts that are alive, and the objects of the one that is open. */
       gpu: () => Record<"contexts" | "geometries" | "textures" | "programs", number>;
+      /** Triangles of both shapes that are drawn, and that are measured; null while nothing is open. */
+      faces: () => Observed["faces"] | null;
       /** How many replicas were put on the stage so far. */
       shown: () => number;
       /** Where on the page a point of the normalised frame is seen; null while nothing is open. */
@@ -45,6 +48,7 @@ window.shapewright = {
     const [open] = alive;
     return { contexts: alive.size, geometries: 0, textures: 0, programs: 0, ...open?.objects };
   },
+  faces: () => [...alive][0]?.faces ?? null,
   seen: (side, point) => {
     const [open] = alive;
     const at = open?.project(new Vector3(...point), side);

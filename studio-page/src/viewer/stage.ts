@@ -4,17 +4,23 @@
  */
 
 import {
+  Box3,
+  Color,
   DirectionalLight,
   HemisphereLight,
-  PerspectiveCamera,
+  Plane,
   Raycaster,
   Scene,
   Vector2,
   Vector3,
   WebGLRenderer,
 } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { bounds } from "./boxes";
 import { began, ended } from "./diagnostics";
+import { Eye } from "./eye";
+import { Furniture } from "./furniture";
+import { reach, struck } from "./picking";
+import type { Reach } from "./picking";
 import { Surface } from "./surface";
 
 export type Side = "reference" | "replica";
@@ -29,28 +35,25 @@ export interface Pane {
   height: number;
 }
 
-export const VIEWS = {
-  "three-quarter": [35, 25],
-  front: [0, 0],
-  side: [90, 0],
-  top: [0, 89.9],
-} as const;
-export type View = keyof typeof VIEWS;
-
-// Seen as in the thumbnails, so that a shape does not turn when it is opened; a little nearer.
-const FIELD_OF_VIEW = 27.5;
-const DISTANCE = 3.25;
+/** A plane through both shapes; what lies beyond it along its axis is cut away, or what lies before it. */
+export interface Section {
+  axis: "x" | "y" | "z";
+  at: number;
+  flipped: boolean;
+}
 
 export class Stage {
   readonly canvas = document.createElement("canvas");
-  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 50);
+  readonly eye: Eye;
   readonly surfaces: Record<Side, Surface> = { reference: new Surface(), replica: new Surface() };
   layout: Layout = "beside";
+  /** Half-spaces that are shown, all of space where there is none. */
+  shown: readonly Plane[] = [];
   /** Called after every drawing. */
   onDraw: () => void = () => undefined;
   private readonly renderer: WebGLRenderer;
   private readonly scenes: Record<Side, Scene> = { reference: new Scene(), replica: new Scene() };
-  private readonly controls: OrbitControls;
+  private readonly furniture: Record<Side, Furniture> = { reference: new Furniture(), replica: new Furniture() };
   private readonly caster = new Raycaster();
   private readonly watcher = new ResizeObserver(() => this.resize());
   private readonly lamps: DirectionalLight[] = [];
@@ -61,30 +64,24 @@ export class Stage {
     const context = this.canvas.getContext("webgl2", { antialias: true, alpha: true });
     if (!context) throw new Error("This browser has no WebGL.");
     this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
+    this.renderer.localClippingEnabled = true;
     began(this);
     this.renderer.autoClear = false;
     container.append(this.canvas);
     for (const side of SIDES) {
       const lamp = new DirectionalLight(0xffffff, 2.1);
       this.lamps.push(lamp);
-      this.scenes[side].add(this.surfaces[side].group, new HemisphereLight(0xffffff, 0x8d8d96, 1.5), lamp, lamp.target);
+      const light = new HemisphereLight(0xffffff, 0x8d8d96, 1.5);
+      this.scenes[side].add(this.surfaces[side].group, this.furniture[side].group, light, lamp, lamp.target);
     }
-    this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.enableDamping = false;
-    this.controls.minDistance = 0.3;
-    this.controls.maxDistance = 12;
-    this.controls.addEventListener("change", () => this.invalidate());
-    this.look("three-quarter");
+    this.eye = new Eye(this.canvas, () => this.invalidate());
     this.watcher.observe(container);
     this.resize();
   }
 
   /** Ask for a drawing with the next frame of the screen. */
   invalidate(): void {
-    this.frame ||= requestAnimationFrame(() => {
-      this.frame = 0;
-      this.draw();
-    });
+    this.frame ||= requestAnimationFrame(() => this.draw());
   }
 
   arrange(layout: Layout): void {
@@ -92,29 +89,34 @@ export class Stage {
     this.resize();
   }
 
-  look(view: View): void {
-    const [azimuth, elevation] = VIEWS[view].map((degrees) => (degrees * Math.PI) / 180) as [number, number];
-    const level = Math.cos(elevation);
-    this.controls.target.set(0, 0, 0);
-    this.camera.position
-      .set(level * Math.sin(azimuth), Math.sin(elevation), level * Math.cos(azimuth))
-      .multiplyScalar(DISTANCE);
-    this.controls.update();
+  wire(on: boolean): void {
+    for (const side of SIDES) this.surfaces[side].wire(on);
     this.invalidate();
   }
 
-  /** Turn by the keyboard: angles in degrees to the right and upwards, and a factor of the distance. */
-  turn(right: number, up: number, closer = 1): void {
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const distance = offset.length() / closer;
-    const azimuth = Math.atan2(offset.x, offset.z) + (right * Math.PI) / 180;
-    const limit = Math.PI / 2 - 0.001;
-    const elevation = Math.asin(offset.y / offset.length()) + (up * Math.PI) / 180;
-    const held = Math.min(limit, Math.max(-limit, elevation));
-    offset.set(Math.cos(held) * Math.sin(azimuth), Math.sin(held), Math.cos(held) * Math.cos(azimuth));
-    this.camera.position.copy(this.controls.target).addScaledVector(offset, distance);
-    this.controls.update();
+  section(section: Section | null): void {
+    const planes = [];
+    if (section) {
+      const normal = new Vector3();
+      normal[section.axis] = section.flipped ? 1 : -1;
+      planes.push(new Plane(normal, section.flipped ? -section.at : section.at));
+    }
+    this.shown = planes;
+    for (const side of SIDES) this.surfaces[side].cut(planes);
     this.invalidate();
+  }
+
+  /** A grid under both shapes, and axes through their middle. */
+  furnish(on: boolean, ink: Color): void {
+    const box = this.box;
+    const floor = box.isEmpty() ? -0.5 : box.min.y;
+    for (const side of SIDES) this.furniture[side].place(on, floor, ink);
+    this.invalidate();
+  }
+
+  /** Show both shapes as large as the pane holds, from the same side; and so until the author comes nearer or goes away. */
+  fit(): void {
+    this.eye.fit(this.box);
   }
 
   pane(side: Side): Pane {
@@ -127,12 +129,12 @@ export class Stage {
   /** Place in the pane's pixels of a point in space, and its depth; null behind the camera. */
   project(point: Vector3, side: Side): { x: number; y: number; depth: number } | null {
     const pane = this.pane(side);
-    const seen = point.clone().project(this.camera);
+    const seen = point.clone().project(this.eye.lens);
     if (seen.z > 1) return null;
     return {
       x: pane.x + ((seen.x + 1) / 2) * pane.width,
       y: pane.y + ((1 - seen.y) / 2) * pane.height,
-      depth: point.distanceTo(this.camera.position),
+      depth: this.eye.depth(point),
     };
   }
 
@@ -144,11 +146,18 @@ export class Stage {
 
   /** The nearest point of a surface under a pixel of the canvas. */
   hit(x: number, y: number, side: Side): Vector3 | null {
-    const pane = this.pane(side);
-    const at = new Vector2(((x - pane.x) / pane.width) * 2 - 1, 1 - ((y - pane.y) / pane.height) * 2);
-    this.caster.setFromCamera(at, this.camera);
-    const mesh = this.surfaces[side].mesh;
-    return this.surfaces[side].group.visible ? (this.caster.intersectObject(mesh, false)[0]?.point ?? null) : null;
+    const { solid, group } = this.surfaces[side];
+    if (!solid?.body || !group.visible) return null;
+    this.caster.setFromCamera(this.inPane(x, y, side), this.eye.lens);
+    const { ray } = this.caster;
+    ray.origin.addScaledVector(ray.direction, -this.eye.behind);
+    return struck(solid.body, ray, this.shown);
+  }
+
+  /** What lies within so many pixels of a pixel of the canvas. */
+  reach(x: number, y: number, pixels: number, side: Side): Reach {
+    const [pane, at] = [this.pane(side), this.inPane(x, y, side)];
+    return reach(this.eye.lens, at.x, at.y, (2 * pixels) / pane.width, (2 * pixels) / pane.height, this.shown);
   }
 
   /** Objects that live on the graphics card. */
@@ -157,10 +166,23 @@ export class Stage {
     return { geometries: memory.geometries, textures: memory.textures, programs: programs?.length ?? 0 };
   }
 
-  private draw(): void {
+  /** How many triangles are drawn, and are measured. */
+  get faces(): Record<Side, { drawn: number; measured: number }> {
+    const of = ({ solid }: Surface) => ({
+      drawn: (solid?.sight.indices.length ?? 0) / 3,
+      measured: (solid?.body?.indices.length ?? 0) / 3,
+    });
+    return { reference: of(this.surfaces.reference), replica: of(this.surfaces.replica) };
+  }
+
+  /** Draw at once, so that the canvas can be copied. */
+  draw(): void {
+    cancelAnimationFrame(this.frame);
+    this.frame = 0;
+    const { camera, lens } = this.eye;
     this.lamps.forEach((lamp) => {
       // Over the viewer's left shoulder, so that faces towards all three axes differ.
-      lamp.position.copy(this.camera.position).add(new Vector3(-1.2, 1.8, 0.6).applyQuaternion(this.camera.quaternion));
+      lamp.position.copy(camera.position).add(new Vector3(-1.2, 1.8, 0.6).applyQuaternion(camera.quaternion));
     });
     this.renderer.setScissorTest(false);
     this.renderer.clear();
@@ -169,7 +191,7 @@ export class Stage {
       const pane = this.pane(side);
       this.renderer.setViewport(pane.x, 0, pane.width, pane.height);
       this.renderer.setScissor(pane.x, 0, pane.width, pane.height);
-      this.renderer.render(this.scenes[side], this.camera);
+      this.renderer.render(this.scenes[side], lens);
     }
     this.onDraw();
   }
@@ -178,8 +200,11 @@ export class Stage {
   dispose(): void {
     cancelAnimationFrame(this.frame);
     this.watcher.disconnect();
-    this.controls.dispose();
-    for (const side of SIDES) this.surfaces[side].dispose();
+    this.eye.dispose();
+    for (const side of SIDES) {
+      this.surfaces[side].dispose();
+      this.furniture[side].dispose();
+    }
     for (const lamp of this.lamps) lamp.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
@@ -187,8 +212,20 @@ export class Stage {
     ended(this);
   }
 
-  set controllable(on: boolean) {
-    this.controls.enabled = on;
+  /** The box around both shapes. */
+  private get box(): Box3 {
+    const box = new Box3();
+    for (const side of SIDES) {
+      const { solid, group } = this.surfaces[side];
+      if (!solid || !group.visible) continue;
+      box.union(solid.body ? bounds(solid.body.faces) : new Box3().setFromArray(solid.sight.positions));
+    }
+    return box;
+  }
+
+  private inPane(x: number, y: number, side: Side): Vector2 {
+    const pane = this.pane(side);
+    return new Vector2(((x - pane.x) / pane.width) * 2 - 1, 1 - ((y - pane.y) / pane.height) * 2);
   }
 
   private resize(): void {
@@ -197,11 +234,8 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight, false);
     const pane = this.pane("reference");
-    this.camera.aspect = pane.width / pane.height;
-    // The whole of a shape fits into a half that is narrower than high.
-    const vertical = Math.tan((FIELD_OF_VIEW * Math.PI) / 360) / Math.min(1, this.camera.aspect);
-    this.camera.fov = (Math.atan(vertical) * 360) / Math.PI;
-    this.camera.updateProjectionMatrix();
+    this.eye.resized(pane.width / pane.height);
+    if (this.eye.fitted) this.fit();
     this.draw();
   }
 }

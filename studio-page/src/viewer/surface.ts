@@ -1,4 +1,4 @@
-/** One mesh on the stage: its faces, flat shaded and seen from both sides, and its creases. */
+/** One mesh on the stage: its faces, flat shaded and seen from both sides, its creases, and the edges of its triangles. */
 
 import {
   BufferAttribute,
@@ -11,27 +11,22 @@ import {
   LineSegments,
   Mesh,
   MeshLambertMaterial,
+  type Plane,
 } from "three";
-import { creases } from "./creases";
-
-export interface Triangles {
-  /** (V, 3), normalised */
-  positions: Float32Array;
-  /** (F, 3) */
-  indices: Uint32Array;
-  /** whether they stand for points and have no creases */
-  discs?: boolean;
-}
+import type { Solid, Triangles } from "./solids/solid";
 
 /** Writes a colour (linear light) for each corner of each face (F, 3, 3). */
 export type Paint = (colours: Float32Array, indices: Uint32Array) => void;
 
+/** How strongly the edges of triangles show, beside creases. */
+const WIRE = 0.45;
+
 export class Surface {
   readonly group = new Group();
-  triangles: Triangles | null = null;
-  segments: Float32Array = new Float32Array();
+  solid: Solid | null = null;
   private readonly faces = new BufferGeometry();
   private readonly lines = new BufferGeometry();
+  private readonly wires = new BufferGeometry();
   private readonly skin = new MeshLambertMaterial({
     flatShading: true,
     side: DoubleSide,
@@ -41,21 +36,22 @@ export class Surface {
     polygonOffsetUnits: 1,
   });
   private readonly ink = new LineBasicMaterial({ transparent: true });
-  readonly mesh = new Mesh(this.faces, this.skin);
+  private readonly thread = new LineBasicMaterial({ transparent: true });
+  private readonly net = new LineSegments(this.wires, this.thread);
 
   constructor() {
-    this.group.add(this.mesh, new LineSegments(this.lines, this.ink));
-    this.group.visible = false;
+    this.group.add(new Mesh(this.faces, this.skin), new LineSegments(this.lines, this.ink), this.net);
+    this.group.visible = this.net.visible = false;
   }
 
-  /** Show another shape: its creases, and its faces in one colour until they are painted. */
-  show(triangles: Triangles | null, paint: Paint): void {
-    this.triangles = triangles;
-    this.group.visible = triangles !== null && triangles.indices.length > 0;
-    if (!triangles) return;
-    this.segments = triangles.discs ? new Float32Array() : creases(triangles.positions, triangles.indices);
-    fill(this.lines, "position", this.segments.length).set(this.segments);
-    this.cover(triangles, paint);
+  /** Show another shape: its creases; its faces once they are painted. */
+  show(solid: Solid | null): void {
+    const drawn = this.solid?.sight;
+    this.solid = solid;
+    this.group.visible = solid !== null && solid.sight.indices.length > 0;
+    if (!solid || solid.sight === drawn) return;
+    fill(this.lines, "position", solid.sight.segments.length).set(solid.sight.segments);
+    if (this.net.visible) this.knit();
   }
 
   /** Faces of the shape, perhaps cut finer than those that its creases come from. Buffers are filled in place. */
@@ -76,11 +72,37 @@ export class Surface {
     this.skin.depthWrite = opacity >= 1;
     this.skin.needsUpdate = true;
     this.ink.color.copy(ink);
+    this.thread.color.copy(ink);
     this.ink.opacity = strength;
+    this.thread.opacity = strength * WIRE;
+  }
+
+  /** Whether the edges of all triangles are drawn. */
+  wire(on: boolean): void {
+    if (on && !this.net.visible) this.knit();
+    this.net.visible = on;
+  }
+
+  /** Leave away what lies behind these planes. */
+  cut(planes: Plane[]): void {
+    for (const material of [this.skin, this.ink, this.thread]) material.clippingPlanes = planes;
   }
 
   dispose(): void {
-    for (const owned of [this.faces, this.lines, this.skin, this.ink]) owned.dispose();
+    for (const owned of [this.faces, this.lines, this.wires, this.skin, this.ink, this.thread]) owned.dispose();
+  }
+
+  private knit(): void {
+    if (!this.solid) return;
+    const { positions, indices } = this.solid.sight;
+    const ends = fill(this.wires, "position", indices.length * 6);
+    for (let corner = 0; corner < indices.length; corner++) {
+      const next = corner % 3 === 2 ? corner - 2 : corner + 1;
+      for (let k = 0; k < 3; k++) {
+        ends[6 * corner + k] = positions[3 * indices[corner]! + k]!;
+        ends[6 * corner + 3 + k] = positions[3 * indices[next]! + k]!;
+      }
+    }
   }
 }
 

@@ -8,7 +8,7 @@ from shapewright.references.sources import Source
 from shapewright.runs.folder import FORMAT, RECORD
 from shapewright.settings import Settings
 from shapewright.studio.project.listing import Listing
-from shapewright.studio.project.picture_store import Pictures
+from shapewright.studio.project.stores.picture_store import Pictures
 from shapewright.studio.session.board import lay_out
 from shapewright.studio.session.standard import Standard
 

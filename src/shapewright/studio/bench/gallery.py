@@ -148,6 +148,13 @@ class Gallery:
             return None
         return Axes.of(reference.orientation, reference.axes_by)
 
+    def kept_shape(self, slug: str) -> Path | None:
+        """Where the message of a large mesh is kept; None where nothing is, or where its axes are still a guess."""
+        stance = self.stances.get(slug)
+        if self._cache is None or slug not in self.listed.sources or isinstance(stance, Finding):
+            return None
+        return self.listed.kept_shape(self._cache, slug, stance, self.facts.up)
+
     def view(self, slug: str) -> Reference:
         """The same reference as an object in a picture. Raises as ``[]`` does."""
         (read,) = self._readers.read(as_views([self.listed.sources[slug]]))

@@ -135,6 +135,7 @@ class Loaded(BenchMessage, frozen=True):
     """The procedure was read."""
 
     load: int
+    up: str  # the procedure's axis that points up
     name: str
     parameters: list[Parameter]
     defaults: Values

@@ -30,6 +30,7 @@ from shapewright.studio.bench.sweep import Sweep
 from shapewright.studio.bench.targets import Targets
 from shapewright.studio.bench.workshop import Broken, Workshop
 from shapewright.studio.project.listing import Listing, listing
+from shapewright.studio.project.stores.shape_store import LARGE, keep_message
 from shapewright.studio.wire.answers import DrawingMessage, FailedMessage
 from shapewright.studio.wire.child import own_streams, read_frame, write_frame
 from shapewright.studio.wire.detail import About
@@ -167,9 +168,16 @@ class Bench:
             try:
                 picture, axes = self._gallery.picture(slug), self._gallery.axes(slug)
                 self._send(messages.Drawn(slug=slug, axes=axes), picture)
+                self._keep_shape(slug)
             except (UnreadableError, ValueError) as error:
                 self._send(messages.Unreadable(slug=slug, reason=str(error)))
             yield
+
+    def _keep_shape(self, slug: Slug) -> None:
+        """A large mesh is ready sooner than it is asked for."""
+        shape, path = self._gallery[slug].shape, self._gallery.kept_shape(slug)
+        if isinstance(shape, Mesh) and path and 12 * len(shape.faces) > LARGE / 2 and not path.exists():
+            keep_message(path, shape_messages.reference_message(shape, slug)[1])
 
     def _load(self, request: messages.Load) -> None:
         old = [name for name in self._tasks if name.startswith(("sweep", _EXPLORED))]
@@ -187,8 +195,9 @@ class Bench:
                 self._stand(version.facts, self._gallery.stances)
             if other or not self._standing.taught:
                 self._begin("axes", self._find_axes())
+            name, up = version.name, version.facts.up
             space, defaults = version.parameters, version.defaults
-            self._send(messages.Loaded(load=request.load, name=version.name, parameters=space, defaults=defaults))
+            self._send(messages.Loaded(load=request.load, up=up, name=name, parameters=space, defaults=defaults))
 
     def _new_targets(self) -> Targets:
         return Targets(lambda: self._references, self._settings, self._cache)
@@ -260,11 +269,13 @@ class Bench:
                 camera = replace(THUMBNAIL, azimuth=request.azimuth, elevation=request.elevation)
                 payload = thumbnail(self._asked_for(request), request.size, camera)
             else:
-                reference = self._references[request.slug or ""]
+                slug = request.slug or ""
+                reference = self._references[slug]
                 if request.what == "about":
                     message = shape_messages.about(reference)
                 else:
-                    message, payload = shape_messages.reference_message(reference.shape, request.slug or "")
+                    message, payload = shape_messages.reference_message(reference.shape, slug)
+                    keep_message(self._references.kept_shape(slug), payload)
         except (KeyError, UnreadableError, ValueError, Broken) as error:
             wrong = str(error)
         self._send(messages.Reply(request=request.request, message=message, error=wrong), payload)

@@ -20,6 +20,7 @@ class Authored:
     name: str = ""  # of the newest good version
     parameters: list[Parameter] = field(default_factory=list)  # of the newest good version
     defaults: Values = field(default_factory=dict)  # of the newest good version
+    up: str | None = None  # axis that points up, of the newest good version; None before the first
     load: int = 0  # number of the newest reading
     saved: bool = False  # whether that followed a save
     _fingerprint: str = ""
@@ -44,8 +45,8 @@ class Authored:
         self.project.seen(before, self._text)
         self.state, self.saved = "loading", saved
 
-    def accept(self, name: str, parameters: list[Parameter], defaults: Values) -> None:
-        self.state, self.name, self.parameters, self.defaults = "good", name, parameters, defaults
+    def accept(self, name: str, parameters: list[Parameter], defaults: Values, up: str) -> None:
+        self.state, self.name, self.parameters, self.defaults, self.up = "good", name, parameters, defaults, up
 
     def reject(self) -> None:
         self.state, self.saved = "broken", False

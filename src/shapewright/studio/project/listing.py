@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from shapewright.references.orientation import Orientation
 from shapewright.references.readers.formats import CLOUDS, MESHES
@@ -17,6 +17,9 @@ from shapewright.storage import file_names
 PICTURE = 256
 """Pixels of a reference's thumbnail."""
 PICTURES = "thumbnails"  # the folder in the cache
+SHAPES = "shapes"  # the folder in the cache
+SHAPE_FORMAT = 1
+"""Part of the name of every message of a shape that is kept; raise it whenever the same file would get another one."""
 _PICTURE_FORMAT = 2
 """Part of every cached picture's name; raise it whenever the same file would get another picture."""
 _OUTSIDE = "a link that leads out of the project folder; start the studio with --references to allow it"
@@ -85,6 +88,16 @@ class Listing:
         """See the function of this name. found: how its shape is turned, where that was found."""
         source = self.sources[slug]
         return kept_picture(cache, source, found, source.name if slug in self.files else None)
+
+    def kept_shape(self, cache: Path, slug: str, stance: Mapping[str, Any] | None, up: str) -> Path | None:
+        """Where the message of a large mesh is kept or is to be kept; None when its file is not there.
+
+        stance: how a run found it to stand, where one did. up: the procedure's axis that points up.
+        """
+        standing = sorted(stance.items()) if stance is not None else None
+        part = self.sources[slug].name if slug in self.files else None
+        name = version_of(self.sources[slug], "shape", SHAPE_FORMAT, standing, up, part)
+        return cache / SHAPES / f"{name}.mesh" if name else None
 
     @property
     def dimension(self) -> Literal[2, 3]:

@@ -110,7 +110,10 @@ async def _reference(session: Session, request: Request) -> Any:
 
 
 async def _shape(session: Session, request: Request) -> Any:
-    message, payload = await session.bench.process.fetch(_slug(session, request), "shape")
+    slug = _slug(session, request)
+    message, payload = None, queries.kept_shape(session, slug)
+    if payload is None:
+        message, payload = await session.bench.process.fetch(slug, "shape")
     return message if not payload else Response(payload, media_type="application/octet-stream", headers=_NO_STORE)
 
 

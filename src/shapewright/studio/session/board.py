@@ -20,7 +20,7 @@ from shapewright.runs.result import MEASURES, grade_in
 from shapewright.settings import Settings
 from shapewright.storage import printable
 from shapewright.studio.project.listing import Listing
-from shapewright.studio.project.picture_store import Pictures
+from shapewright.studio.project.stores.picture_store import Pictures
 from shapewright.studio.session.standard import Standard
 from shapewright.studio.wire.collection import Axes, Collection, Group, Skipped, Stage, Tile
 from shapewright.studio.wire.judgement import Counts, Measures, Piece, Pose

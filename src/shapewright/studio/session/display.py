@@ -18,7 +18,7 @@ from shapewright.settings import Settings
 from shapewright.storage import printable
 from shapewright.studio.bench.messages import Drawn, Measured, Parted, SweepEnded, Swept, Unreadable
 from shapewright.studio.project.listing import Listing, listing, version_of
-from shapewright.studio.project.picture_store import Pictures
+from shapewright.studio.project.stores.picture_store import Pictures
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.session.board import Board, lay_out
 from shapewright.studio.session.pages import Pages

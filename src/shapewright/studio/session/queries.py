@@ -11,6 +11,7 @@ import msgspec
 
 from shapewright.runs.folder import read_json, read_record
 from shapewright.studio.jobs.fit_job import PREDICTIONS
+from shapewright.studio.project.stores.shape_store import kept_message
 from shapewright.studio.project.telling import told
 from shapewright.studio.project.workspace import Missing
 from shapewright.studio.session.history import source_of
@@ -45,6 +46,15 @@ def reference(session: Session, slug: Slug, about: About | None) -> Reference:
         **{key: _known(predicted.get(key), names) for key in ("predicted", "spread", "likelihood")},
         explanation=explanation(session)["references"].get(slug) if session.explained else None,
     )
+
+
+def kept_shape(session: Session, slug: Slug) -> bytes | None:
+    """The message of a large reference, where it is kept; the bench, which may be busy, is not asked then."""
+    shown, up = session.display, session.authored.up
+    stance = shown.recorded(shown.run).get(slug)
+    if shown.cache is None or up is None or (slug in shown.listed.free and stance is None):
+        return None
+    return kept_message(shown.listed.kept_shape(shown.cache, slug, stance, up))
 
 
 def run_detail(session: Session, name: str) -> RunDetail:

@@ -245,7 +245,7 @@ class Session:
     def _take_version(self, loaded: messages.Loaded) -> None:
         """Show the new version: a run of it where there is one, else the replicas of before, carried over."""
         saved, self.authored.saved = self.authored.saved, False
-        self.authored.accept(loaded.name, loaded.parameters, loaded.defaults)
+        self.authored.accept(loaded.name, loaded.parameters, loaded.defaults, loaded.up)
         self.problems.report("procedure", [])
         self.display.of_version(self.authored.digest, self.authored.version)
         fitted = self.display.newest(of_version=True)

@@ -1,7 +1,7 @@
 /** Points and lines of a measure, drawn over the stage in both of its halves. */
 
 import { Vector3 } from "three";
-import { bounds, boxEdges } from "../../viewer/snapping";
+import { bounds, boxEdges } from "../../viewer/boxes";
 import type { Side, Stage } from "../../viewer/stage";
 import { fixed } from "../../ui/numbers";
 import { degrees, hover, length, points, snapping, tool } from "./points";
@@ -76,9 +76,9 @@ function Cursor({ x, y, kind }: { x: number; y: number; kind: string }) {
 }
 
 function BoundingBox({ open, side }: { open: Stage; side: Side }) {
-  const { triangles } = open.surfaces[side];
-  if (!triangles) return null;
-  const lines = boxEdges(bounds(triangles.positions)).flatMap(([a, b]) => {
+  const body = open.surfaces[side].solid?.body;
+  if (!body) return null;
+  const lines = boxEdges(bounds(body.faces)).flatMap(([a, b]) => {
     const [from, to] = [open.project(a, side), open.project(b, side)];
     return from && to ? [`M${from.x} ${from.y}L${to.x} ${to.y}`] : [];
   });

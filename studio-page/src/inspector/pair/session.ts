@@ -5,6 +5,8 @@ import { complain } from "../../state/notices";
 import { connected, dimension, procedure, tileOf } from "../../state/studio";
 import { evaluate, onEvaluated } from "../../wire/live";
 import type { Evaluated, MeshMessage, ResidualsMessage } from "../../wire/binary";
+import { prepare, thin } from "../../viewer/solids/preparing";
+import type { Solid } from "../../viewer/solids/solid";
 import type {
   VerdictMessage,
   DrawingMessage,
@@ -20,7 +22,9 @@ import { RequestError, requests } from "../../wire/requests";
 import { edit, edited, forgetEdits, redoEdit, undoEdit } from "./edits";
 
 export type Colouring = "plain" | "distance" | "parts";
-export type Shown = MeshMessage | DrawingMessage;
+/** A mesh is made ready for the stage before it is shown. */
+export type ShownMesh = Omit<MeshMessage, "positions" | "indices" | "labels"> & { solid: Solid };
+export type Shown = ShownMesh | DrawingMessage;
 /** What an evaluation says of the replica besides its geometry. */
 export type Outcome = Required<Pick<Shown, "parameters" | "active" | "at_limit" | "units" | "milliseconds">>;
 
@@ -51,6 +55,8 @@ export const values = computed((): Values => {
 export const active = computed(() => new Set(outcome.value?.active ?? reference.value?.active ?? []));
 export const atLimit = computed(() => new Set(outcome.value?.at_limit ?? reference.value?.at_limit ?? []));
 
+/** Number of the evaluation whose replica came last. */
+let newest = 0;
 let said = 0;
 let unanswered = 0;
 
@@ -141,15 +147,24 @@ function watch(next: Slug): () => void {
       if (!connected.value) return;
       const tile = tileOf(next);
       const since = unanswered > 0 ? null : said;
-      requests.reference(next).then((found) => slug.value === next && read(found, since), note(next));
       if (tile && tile.reference !== shape) {
         shape = tile.reference;
-        const asked: Promise<Shown> = dimension.value === 3 ? requests.mesh(next) : requests.drawing(next);
-        asked.then((found) => slug.value === next && (original.value = found), note(next));
+        const asked: Promise<MeshMessage | DrawingMessage> =
+          dimension.value === 3 ? requests.mesh(next) : requests.drawing(next);
+        asked.then((found) => shapeOf(found, (ready) => slug.value === next && (original.value = ready)), note(next));
       }
+      requests.reference(next).then((found) => slug.value === next && read(found, since), note(next));
       ask();
     });
   });
+}
+
+/** Calls `ready` with what can be shown; again with the same shape when it can be measured. */
+function shapeOf(message: MeshMessage | DrawingMessage, ready: (shown: Shown) => void): void {
+  if (message.type === "drawing") return ready(message);
+  const { positions, indices, labels, ...said } = message;
+  prepare({ positions, indices, discs: said.discs }, labels, (solid) => ready({ ...said, solid }));
+  return undefined;
 }
 
 /** Tell an error of a request, unless the author has gone on. */
@@ -204,8 +219,12 @@ function hear(message: Evaluated): void {
   switch (message.type) {
     case "mesh":
     case "drawing":
-      replica.value = message;
-      outcome.value = message.parameters ? (message as Outcome) : outcome.value;
+      newest = message.id;
+      shapeOf(message, (ready) => {
+        // A newer one may have been ready sooner, and another pair may be open by now.
+        if (newest === message.id && slug.value === message.slug) replica.value = ready;
+      });
+      outcome.value = message.parameters ? (message as unknown as Outcome) : outcome.value;
       residuals.value = { reference: null, replica: null };
       failure.value = null;
       return;
@@ -214,7 +233,10 @@ function hear(message: Evaluated): void {
       if (message.id >= waiting.value) waiting.value = 0;
       return;
     case "residuals":
-      residuals.value = { ...residuals.value, [message.shape]: message };
+      thin(message, (fine) => {
+        if (newest <= message.id && slug.value === message.slug)
+          residuals.value = { ...residuals.value, [message.shape]: fine };
+      });
       return;
     case "failed":
       failure.value = message.problem;

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from shapewright.studio.project.picture_store import Pictures
+from shapewright.studio.project.stores.picture_store import Pictures
 from shapewright.studio.project.workspace import Missing
 
 

@@ -1,0 +1,1 @@
+"""What the page gets again and again, kept on disk."""
