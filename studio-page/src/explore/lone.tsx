@@ -130,7 +130,8 @@ function Solid({ index }: { index: number }) {
       const mesh = found?.type === "mesh" ? found : null;
       const colours = COLOURS[theme.value];
       const { replica: surface } = open.surfaces;
-      surface.show(mesh, plain(colours.replica));
+      surface.show(mesh?.solid ?? null);
+      if (mesh) surface.cover(mesh.solid.sight, plain(colours.replica));
       const failed = failure.value !== null;
       surface.dress(failed ? 0.35 : 1, new Color().setStyle(colours.ink), failed ? 0.25 : 0.75);
       replicaShown();

@@ -9,18 +9,16 @@ from __future__ import annotations
 import threading
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
 from shapewright.procedures import Facts
 from shapewright.references.errors import CollectionError, UnreadableError
 from shapewright.references.reading import Readers
-from shapewright.rendering.cameras import THUMBNAIL
-from shapewright.rendering.thumbnails import thumbnail
 from shapewright.settings import Settings
-from shapewright.shapes import Drawing, Mesh, ReferenceShape, Shape
+from shapewright.shapes import Drawing, Mesh, Shape
 from shapewright.studio.bench import messages, shape_messages
+from shapewright.studio.bench.answering.fetching import fetched
 from shapewright.studio.bench.exploring.overview import Overview
 from shapewright.studio.bench.gallery import Gallery, Stance
 from shapewright.studio.bench.inbox import Inbox
@@ -265,29 +263,10 @@ class Bench:
         message: About | DrawingMessage | None = None
         payload, wrong = b"", None
         try:
-            if request.what == "render":
-                camera = replace(THUMBNAIL, azimuth=request.azimuth, elevation=request.elevation)
-                payload = thumbnail(self._asked_for(request), request.size, camera)
-            else:
-                slug = request.slug or ""
-                reference = self._references[slug]
-                if request.what == "about":
-                    message = shape_messages.about(reference)
-                else:
-                    message, payload = shape_messages.reference_message(reference.shape, slug)
-                    keep_message(self._references.kept_shape(slug), payload)
+            message, payload = fetched(request, self._references, self._workshop)
         except (KeyError, UnreadableError, ValueError, Broken) as error:
             wrong = str(error)
         self._send(messages.Reply(request=request.request, message=message, error=wrong), payload)
-
-    def _asked_for(self, request: messages.Fetch) -> ReferenceShape:
-        """What a picture is of."""
-        if request.parameters is None:
-            return self._references[request.slug or ""].shape
-        built = self._workshop.build(request.parameters, request.beyond) if self._workshop.open else None
-        if built is None or built.build.shape is None:
-            raise ValueError("there is no replica")
-        return built.build.shape
 
 
 def main() -> None:

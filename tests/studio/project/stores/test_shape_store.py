@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from shapewright.studio.project import shape_store
+from shapewright.studio.project.stores import shape_store
 from shapewright.studio.project.stores.shape_store import LARGE, keep_message, kept_message
 
 

@@ -1,0 +1,1 @@
+"""What the page asks once, and gets one answer to."""
