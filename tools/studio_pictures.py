@@ -110,6 +110,34 @@ def causes(visit: Visit) -> None:
     visit.page.keyboard.press("e")
 
 
+def explore(visit: Visit) -> None:
+    visit.go("explore")
+    visit.page.wait_for_selector("[data-shape='23']:not(.waits)")
+
+
+def parameters(visit: Visit) -> None:
+    visit.go("parameters")
+    visit.page.click(".histogram .bar:not(.none) >> nth=2")
+    visit.page.wait_for_selector(".brushed")
+
+
+def selection(visit: Visit) -> None:
+    for i in (0, 1, 3):
+        visit.page.click(".tile .pair >> nth=" + str(i), modifiers=["Control"])
+    visit.page.wait_for_selector(".selection")
+
+
+def map_of_all(visit: Visit) -> None:
+    visit.page.click(".segments >> text=Map")
+    visit.page.wait_for_selector(".map circle")
+    visit.page.select_option(".map-view select[aria-label=Colour]", "fidelity")
+
+
+def old_run(visit: Visit) -> None:
+    visit.page.evaluate("location.hash = 'history/001'")
+    visit.page.wait_for_selector(".old-run .tile")
+
+
 def keys(visit: Visit) -> None:
     visit.open("kitchen")
     visit.page.keyboard.press("?")
@@ -132,6 +160,11 @@ SHOTS: dict[str, tuple[Callable[[Visit], None], bool]] = {
     "overlay": (overlay, True),
     "measure": (measure, False),
     "history": (history, False),
+    "explore": (explore, False),
+    "parameters": (parameters, False),
+    "selection": (selection, True),
+    "map": (map_of_all, False),
+    "old-run": (old_run, True),
     "feedback": (feedback, False),
     "causes": (causes, False),
     "keys": (keys, True),

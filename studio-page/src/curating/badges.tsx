@@ -1,7 +1,7 @@
 /** On a tile: its tags, whether something is noted, and whether it is a duplicate. */
 
 import { useComputed } from "@preact/signals";
-import { duplicateOf, noted, tileOf } from "../state/studio";
+import { duplicateOf, noted, tiles } from "../state/studio";
 import { Icon } from "../ui/icons";
 import type { Slug } from "../wire/messages";
 import { extend, selected, toggle } from "./selection";
@@ -9,7 +9,8 @@ import { extend, selected, toggle } from "./selection";
 export function Badges({ slug }: { slug: Slug }) {
   const mine = useComputed(() => noted.value[slug]).value;
   const twin = useComputed(() => duplicateOf.value.get(slug)).value;
-  const other = twin && tileOf(twin.of)?.name;
+  // Names stay: to follow all tiles for them would draw each tile anew with every change of another one.
+  const other = twin && tiles.peek().get(twin.of)?.name;
   return (
     <>
       {other && (

@@ -9,10 +9,10 @@ import type { Slug, Told } from "../wire/messages";
 import { requests } from "../wire/requests";
 import { measureIn, turn } from "./actions";
 import { Mine, Tags } from "./form";
-import { select, selected } from "./selection";
+import { select, selection } from "./selection";
 
 export function SelectionBar() {
-  const slugs = [...selected.value];
+  const slugs = selection.value;
   if (!slugs.length) return null;
   const [only] = slugs;
   return (
