@@ -178,6 +178,19 @@ def test_a_procedure_that_is_not_the_same_there_is_refused(part, tmp_path):
             crew.build(ASKED[:2])
 
 
+def test_a_changed_copy_of_the_file_is_sent_whole(part, tmp_path):
+    copy = tmp_path / "elsewhere" / "model.py"
+    copy.parent.mkdir()
+    copy.write_text(SOURCE.replace("* SCALE", "* 2.0 * SCALE"))
+    (copy.parent / "beside.py").symlink_to(tmp_path / "beside.py")
+    with Workers(part, 1, LIMITS, executor=AtOnce()) as crew:
+        before = crew.build(vectors("none"))[0].shape.vertices
+        crew.turn_to(sw.load_procedure(copy))
+        for _ in range(2):  # the second time on a machine that does not see it
+            assert np.allclose(crew.build(vectors("none"))[0].shape.vertices, 2.0 * before)
+            copy.unlink(missing_ok=True)
+
+
 def test_another_version_there_is_refused(part, monkeypatch):
     sent = executors.Sent.outward(part)
     monkeypatch.setattr("shapewright.building.sent.version_of", lambda _: "9.9")

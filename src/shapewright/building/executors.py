@@ -142,6 +142,9 @@ class Elsewhere:
                 if not waiting:
                     return
                 yield _answer(*waiting.popleft())
+        except ExecutorError:
+            waiting.clear()  # an engine that is gone answers to each of them late, or never
+            raise
         finally:
             for _, pending in waiting:
                 with suppress(Exception):  # of an engine that is gone

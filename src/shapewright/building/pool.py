@@ -63,7 +63,7 @@ class Workers:
         self.limits = replace(limits, seconds=procedure.seconds) if procedure.seconds else limits
         self.costs: list[float] = []
         self.opened: set[Opened] = set()
-        self._send = Sent.outward if executor else Sent.of
+        self._send = partial(Sent.outward, home=self.home) if executor else Sent.of
         sent = self._send(procedure)
         self.builders: Builders | Elsewhere = (
             Elsewhere(executor, sent, self.limits, shown)

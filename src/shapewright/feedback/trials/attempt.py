@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import tempfile
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
 from shapewright.building import Workers
+from shapewright.building.sent import link_all
 from shapewright.comparison.light_field import RAW_SCALE
 from shapewright.comparison.surfaces import area
 from shapewright.feedback.case import Replica
@@ -52,9 +53,8 @@ def turned_to(source: str, crew: Workers) -> Iterator[Workers]:
     with tempfile.TemporaryDirectory(prefix="shapewright-") as folder:
         path = Path(folder) / (before.path.name if before.path else f"{before.name}.py")
         path.write_text(source, encoding="utf-8")
-        for file in crew.home.iterdir() if crew.home else ():
-            with suppress(OSError):  # its own name is taken; Windows may forbid links
-                (path.parent / file.name).symlink_to(file)
+        if crew.home:
+            link_all(crew.home, path.parent)
         crew.turn_to(load_procedure(f"{path}:{before.name}", before.working))
         yield crew
 
