@@ -27,7 +27,7 @@ def stool(
     return top | box((0.15, height, 0.15), at=(0, height / 2, 0)).array(legs, (0.2, 0, 0))
 """
 SETTINGS = sw.Settings(seed=1, samples=160, epochs=2, image_size=32, workers=2, refine_shapes=40)
-_TIMES = ("seconds", "build_seconds", "train_seconds", "created", "first_answer")
+_TIMES = ("seconds", "build_seconds", "train_seconds", "created", "first_answer", "notices")
 
 
 class Counting:
@@ -60,7 +60,9 @@ def test_a_fit_finds_the_same_to_the_bit(stool):
     with ThreadPoolExecutor(2) as pool:
         executor = Counting(pool)
         far = sw.fit(stool, collection, SETTINGS, executor=executor)
+        parts = sw.fit(stool, collection, SETTINGS, executor=pool, chunk=2)
     assert executor.asked > 20
+    assert without_times(parts.record) == without_times(here.record)
     assert without_times(far.record) == without_times(here.record)
     for name in references:
         assert np.array_equal(far[name].replica.vertices, here[name].replica.vertices)
