@@ -9,6 +9,7 @@ import type { Tile } from "../wire/messages";
 import { at, focusOn } from "./focus";
 import { openGroups, toggleGroup } from "./order";
 import { TileCard } from "./tile";
+import { Tiles } from "./tiles";
 
 export function GroupCard({ tiles, number }: { tiles: Tile[]; number: number }) {
   const [representative, ...others] = tiles;
@@ -52,11 +53,7 @@ export function GroupCard({ tiles, number }: { tiles: Tile[]; number: number }) 
           Close
         </Button>
       </header>
-      <div class="tiles">
-        {tiles.map((tile) => (
-          <TileCard key={tile.slug} tile={tile} />
-        ))}
-      </div>
+      <Tiles tiles={tiles} />
     </section>
   );
 }

@@ -4,9 +4,12 @@ import { valueOf } from "../state/grades";
 import { inspect } from "../state/route";
 import { collection } from "../state/studio";
 import { fixed } from "../ui/numbers";
+import type { Tile } from "../wire/messages";
 
 const WIDTH = 260;
 const HEIGHT = 22;
+/** Ticks that each have a place of their own. */
+const FEW = 500;
 
 export function Strip() {
   const { tiles, judge, replicated, close, threshold } = collection.value;
@@ -24,7 +27,7 @@ export function Strip() {
   return (
     <svg class="strip" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={`${what} of all references`}>
       <line class="axis" x1={0} x2={WIDTH} y1={HEIGHT - 0.5} y2={HEIGHT - 0.5} />
-      {known.map(({ tile, value }) => (
+      {ticks(known, x).map(({ tile, value }) => (
         <rect
           key={tile.slug}
           class={tile.grade}
@@ -43,4 +46,14 @@ export function Strip() {
       <title>{`${what}; cuts: ${told.join(", ")}`}</title>
     </svg>
   );
+}
+
+/** One of those that would stand at one place: of thousands hardly any could be told apart. */
+function ticks<Known extends { tile: Tile; value: number }>(known: Known[], x: (value: number) => number): Known[] {
+  const there = new Map<string, Known>();
+  for (const one of known) {
+    const place = `${one.tile.grade} ${Math.round(2 * x(one.value))}`;
+    if (!there.has(place)) there.set(place, one);
+  }
+  return known.length > FEW ? [...there.values()] : known;
 }

@@ -30,7 +30,7 @@ import {
   toggleGroup,
 } from "./order";
 import type { Section } from "./order";
-import { TileCard } from "./tile";
+import { Tiles } from "./tiles";
 import { mapped, searchField, Toolbar } from "./toolbar";
 
 export function CollectionView() {
@@ -162,13 +162,7 @@ function Plain({ section: { kind, tiles } }: { section: Section }) {
           )}
         </h2>
       )}
-      {!folded && (
-        <div class="tiles">
-          {tiles.map((tile) => (
-            <TileCard key={tile.slug} tile={tile} />
-          ))}
-        </div>
-      )}
+      {!folded && <Tiles tiles={tiles} />}
     </section>
   );
 }
