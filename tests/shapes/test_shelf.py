@@ -82,5 +82,5 @@ def test_few_stay_where_they_are():
 
 
 def test_a_full_disk_is_told():
-    with full_after(1000), pytest.raises(OSError):
+    with full_after(1000), pytest.raises(OSError, match="free some space, or name another folder in TMPDIR"):
         shelf.on_disk([mesh(1)])

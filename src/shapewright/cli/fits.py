@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from shapewright.references import Collection
     from shapewright.runs.iteration import Iteration
 
-_NOTHING = "this run is not written; the same command goes on with it, and earlier runs are as they were"
+_NOTHING = "nothing of this run was written; earlier runs are as they were"
+_GOES_ON = "nothing of this run was written; the same command goes on with it, and earlier runs are as they were"
 _NAMED = 4  # names of references in a line
 _SIDES = 4  # that look like the front of a shape that has none
 
@@ -96,7 +97,7 @@ def fit(
     # torch takes seconds to load: before it the first shapes are begun, and what is wrong with the files is said.
     with (
         where(cluster) as there,
-        interruptible(_NOTHING) as listen,
+        interruptible(_GOES_ON) as listen,
         Opening(author, settings, listen, previous is not None, there) as opening,
     ):
         loaded = Collection.load(references, up=up, front=front, keep=keep or ())

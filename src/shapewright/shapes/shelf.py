@@ -71,14 +71,19 @@ def shelved(holders: Iterable[AnyHolder]) -> tuple[AnyHolder, ...]:
 def on_disk(shapes: Sequence[Mesh | Points]) -> list[Mesh | Points]:
     """The same shapes on a shelf of their own. Raises OSError where the disk is full."""
     heads, length = [], 0
-    with tempfile.TemporaryFile(prefix="shapewright-") as file:
-        for shape in shapes:
-            head, content = pack(shape)
-            file.write(content)
-            heads.append((head, length))
-            length += len(content)
-        file.flush()
-        there = memoryview(mmap.mmap(file.fileno(), length, access=mmap.ACCESS_READ))
+    try:
+        with tempfile.TemporaryFile(prefix="shapewright-") as file:
+            for shape in shapes:
+                head, content = pack(shape)
+                file.write(content)
+                heads.append((head, length))
+                length += len(content)
+            file.flush()
+            there = memoryview(mmap.mmap(file.fileno(), length, access=mmap.ACCESS_READ))
+    except OSError as error:
+        where = f"{tempfile.gettempdir()}: many references lie here while they are fitted"
+        what = f"{where}, and it cannot be written: {error.strerror}"
+        raise OSError(f"{what}; free some space, or name another folder in TMPDIR") from error
     found = [unpack(head, there[start : start + head["bytes"]]) for head, start in heads]
     _give_back(there)
     return found  # type: ignore[return-value]  # no drawing was given
