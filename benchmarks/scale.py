@@ -139,7 +139,7 @@ def print_plan(records: Sequence[Record]) -> None:
         print(f"| {count:,} | " + " | ".join(f"{each:.1f}" for each in hours) + " |")
 
 
-def seam(count: int, turns: int, samples: int) -> None:
+def seam(count: int, turns: int, samples: int, names: Sequence[str]) -> None:
     """The same fit by the local pool and by dask's local cluster of 1 and 2 workers, alternately."""
     import shapewright as sw
     from shapewright.building.clusters import ClusterName, where
@@ -150,7 +150,7 @@ def seam(count: int, turns: int, samples: int) -> None:
     settings = sw.Settings(samples=samples, epochs=2, workers=2, refine_shapes=100)
     spent: dict[str, list[tuple[float, float]]] = {}
     for turn in range(turns + 1):  # the first compiles kernels and fills caches
-        for name in ("local", "dask:local:2", "dask:local:1"):
+        for name in names:
             cluster = None if name == "local" else ClusterName.parse(name)
             with where(cluster) as there:
                 before, begun = cpu_seconds(), time.perf_counter()
@@ -198,11 +198,12 @@ def main() -> None:
     parser.add_argument("--counts", type=int, nargs="+", default=None)
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--turns", type=int, default=2)
+    parser.add_argument("--clusters", nargs="+", default=["local", "dask:local:2", "dask:local:1"])
     parser.add_argument("--samples", type=int, default=1000)
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     if arguments.what == "seam":
-        seam(arguments.count, arguments.turns, arguments.samples)
+        seam(arguments.count, arguments.turns, arguments.samples, arguments.clusters)
     elif arguments.what == "groups":
         groups(arguments.counts or [1000, 4000, 16_000])
     elif arguments.what == "one":

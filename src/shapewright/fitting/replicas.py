@@ -64,7 +64,7 @@ class Replicas:
     def tried(self, vectors: Sequence[Parameters], crew: Workers, judge: Judge) -> Replicas:
         """Build one vector for each reference, and keep it where it is better by the judge of the settings."""
         builds = crew.build(vectors)
-        (distances, fields), evidence = judge.nearest(builds), judge.evidence(builds)
+        distances, fields, evidence = judge.seen(builds)
         nearer = (distances < self.distances) | (np.isnan(self.distances) & ~np.isnan(distances))
         if judge.settings.judge == "fidelity":
             old, new = self.fidelities, np.array([each.value for each in evidence])

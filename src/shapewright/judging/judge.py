@@ -151,6 +151,15 @@ class Judge:
         pairs = zip(self.targets, builds, strict=True)
         return self._each(_place, [(target, build.shape) for target, build in pairs])
 
+    def seen(self, builds: Sequence[Build]) -> tuple[Floats, Ints, list[Evidence]]:
+        """``nearest`` and ``evidence`` of a build for each reference: what is made of a reference serves both."""
+        shapes = [build.shape for build in builds]
+        both = self._each(_seen, list(zip(self.targets, shapes, strict=True)))
+        distances, fields = [distance for (distance, _), _ in both], [field for (_, field), _ in both]
+        same = self._likenesses(shapes, None)
+        evidence = [replace(each, value=each.value * likely) for (_, each), likely in zip(both, same, strict=True)]
+        return np.array(distances, dtype=np.float64), np.array(fields, dtype=np.int64), evidence
+
     def measures(
         self, builds: Sequence[Build], distances: Floats, evidence: Sequence[Evidence] | None = None
     ) -> list[Measures]:
@@ -256,6 +265,10 @@ def _fidelity(pair: tuple[Target, Shape | None]) -> float:
 
 def _evidence(pair: tuple[Target, Shape | None]) -> Evidence:
     return pair[0].evidence(pair[1])
+
+
+def _seen(pair: tuple[Target, Shape | None]) -> tuple[tuple[float, int], Evidence]:
+    return _nearest(pair), _evidence(pair)
 
 
 def _measures(one: tuple[Target, Shape | None, float, float | None]) -> Measures:
