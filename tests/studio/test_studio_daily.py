@@ -138,7 +138,7 @@ def test_seventeen_parameters_fit_on_the_screen(visit: Visit) -> None:
         assert page.evaluate("row => row.scrollWidth <= row.clientWidth + 1", rows.nth(i).element_handle())
     number = page.locator("[data-parameter=height] .number")
     assert page.evaluate("field => field.scrollWidth <= field.clientWidth", number.element_handle())
-    title = page.get_attribute("[data-parameter=height]", "title")
+    title = page.get_attribute("[data-parameter=height] .slider", "title")
     assert "Range: 0.3 to 1.2" in title and "Predicted before the search" in title
 
 
@@ -185,7 +185,8 @@ def test_without_webgl_the_picture_follows_the_sliders(server: Studio, browser: 
     page.evaluate("location.hash = 'inspect/table-1'")
     page.wait_for_selector(".pictures img[alt=replica]")
     picture = page.locator(".pictures img[alt=replica]")
-    before = picture.screenshot()
+    visit.until("document.querySelector('.pictures img[alt=replica]').naturalWidth === 512")
+    before, found = picture.screenshot(), picture.get_attribute("src")
     field = page.locator("[data-parameter=height] .number")
     field.fill("1.15")
     field.press("Enter")
@@ -196,7 +197,7 @@ def test_without_webgl_the_picture_follows_the_sliders(server: Studio, browser: 
     page.wait_for_selector(".pictures img[alt=replica][data-of*='1.6']")
     page.click("text=As found")
     page.wait_for_selector(".pictures img[alt=replica][data-of='null']")
-    assert picture.screenshot() == before
+    assert picture.get_attribute("src") == found
     visit.end()
 
 

@@ -289,7 +289,7 @@ def test_marks_say_what_their_cut_would_change_and_a_button_uses_it(server: Stud
 
 def test_the_report_opens_in_the_browser(server: Studio, visit: Visit) -> None:
     page = visit.page
-    run = server.get("/api/state")["collection"]["run"]
+    run = server.get("/api/state")["runs"][-1]["run"]
     visit.go("history")
     with page.context.expect_page() as opened:
         page.click(".run-facts >> text=Report")

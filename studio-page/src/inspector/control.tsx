@@ -11,6 +11,8 @@ export interface Control {
   predicted: Value | null;
   spread: number | null;
   disabled: boolean;
+  /** Its Range and the prediction, in words. */
+  told: string;
   onChange: (value: Value) => void;
 }
 
@@ -31,7 +33,7 @@ export function ControlOf(props: Control) {
   }
 }
 
-function Slider({ parameter, value, found, predicted, spread, disabled, onChange }: Control) {
+function Slider({ parameter, value, found, predicted, spread, disabled, told, onChange }: Control) {
   const low = parameter.low ?? 0;
   const high = parameter.high ?? 1;
   const share = (at: Value | null) => Math.min(1, Math.max(0, (Number(at) - low) / (high - low || 1)));
@@ -41,7 +43,7 @@ function Slider({ parameter, value, found, predicted, spread, disabled, onChange
       ? { left: share(Number(predicted) - spread), right: share(Number(predicted) + spread) }
       : null;
   return (
-    <div class="slider">
+    <div class="slider" title={told}>
       <div class="rail">
         <div class="track" aria-hidden="true">
           {band && <i class="spread" style={{ left: percent(band.left), width: percent(band.right - band.left) }} />}
@@ -52,6 +54,7 @@ function Slider({ parameter, value, found, predicted, spread, disabled, onChange
         <input
           type="range"
           aria-label={parameter.name}
+          title={parameter.meaning || undefined}
           min={low}
           max={high}
           step={(high - low) / 400}

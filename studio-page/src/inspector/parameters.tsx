@@ -79,15 +79,18 @@ function Row({ parameter }: { parameter: Parameter }) {
   const value = values.value[name] ?? parameter.default;
   const used = active.value.size === 0 || active.value.has(name);
   const predicted = predictionSaid(parameter, found?.predicted?.[name] ?? null);
+  const told = [used ? "" : NO_EFFECT, rangeSaid(parameter), predicted].filter(Boolean).join("\n");
   return (
     <div
       class={`parameter ${kind} ${used ? "" : "unused"}`}
       data-parameter={name}
       role="group"
       aria-label={name}
-      title={[meaning, used ? "" : NO_EFFECT, rangeSaid(parameter), predicted].filter(Boolean).join("\n")}
+      title={meaning || undefined}
     >
-      <span class="label">{words(name)}</span>
+      <span class="label" title={meaning ? `${name}: ${meaning}` : name}>
+        {words(name)}
+      </span>
       <ControlOf
         parameter={parameter}
         value={value}
@@ -95,10 +98,11 @@ function Row({ parameter }: { parameter: Parameter }) {
         predicted={found?.predicted?.[name] ?? null}
         spread={found?.spread?.[name] ?? null}
         disabled={!used}
+        told={told}
         onChange={(next) => set(name, next)}
       />
       {kind === "scalar" && <NumberField parameter={parameter} text={significant(Number(value))} disabled={!used} />}
-      <Remark parameter={parameter} used={used} predicted={predicted} />
+      <Remark parameter={parameter} used={used} predicted={predicted} told={told} />
       {isBeyond(parameter, value) && <Beyond parameter={parameter} value={Number(value)} />}
     </div>
   );
@@ -110,20 +114,14 @@ const rangeSaid = ({ low, high }: Parameter): string =>
   low === null || high === null ? "" : `Range: ${shown(low)} to ${shown(high)}`;
 
 /** What there is to say of the value, in a place that is always kept for it. */
-function Remark({
-  parameter: { name, kind },
-  used,
-  predicted,
-}: {
-  parameter: Parameter;
-  used: boolean;
-  predicted: string;
-}) {
+function Remark(props: { parameter: Parameter; used: boolean; predicted: string; told: string }) {
+  const { parameter, used, predicted, told } = props;
+  const { name, kind } = parameter;
   const found = reference.value;
   const limited = atLimit.value.has(name) && used;
   const longer = limited && edited.value === null && found?.longer.includes(name);
   return (
-    <span class="remark">
+    <span class="remark" title={told}>
       {differs(name) ? (
         <Button
           kind="quiet"
