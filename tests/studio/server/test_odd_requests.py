@@ -8,6 +8,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import pytest
 import trimesh
@@ -99,6 +100,10 @@ def test_settings_that_cannot_be_are_refused_and_nothing_is_left(running: Studio
         ("POST", "/api/fit", b'{"fresh": "yes"}'),
         ("POST", "/api/cancel", b'{"kind": "all"}'),
         ("POST", "/api/revisions/1/undo", b'{"digest": 3}'),
+        ("POST", "/api/suggestions/0/apply", b'{"to": "procedure", "hunks": 1}'),
+        ("POST", "/api/suggestions/0/apply", b'{"to": "procedure", "hunks": ["0"]}'),
+        ("POST", "/api/suggestions/0/apply", b'{"to": "procedure", "hunks": [0.5]}'),
+        ("POST", "/api/suggestions/0/apply", b'{"to": "../x", "hunks": [0]}'),
     ],
 )
 def test_orders_that_make_no_sense_are_refused_and_nothing_is_left(
@@ -125,10 +130,34 @@ def test_orders_that_make_no_sense_are_refused_and_nothing_is_left(
         "/api/runs/..",
         "/api/runs/001/files/..%2f..%2f..%2fprocedure.py",
         "/api/exports/..%2f..%2fprocedure.zip",
+        "/api/suggestions/0/merge",
+        "/api/suggestions/-1/merge",
+        "/api/suggestions/" + "9" * 400 + "/merge",
     ],
 )
 def test_what_is_not_there_is_not_found(running: Studio, path: str) -> None:
     assert running.request("GET", path)[0] == 404
+
+
+@pytest.mark.parametrize(
+    "of",
+    [
+        "x",
+        "[]",
+        '{"parameters": 1}',
+        '{"parameters": {"height": [1]}}',
+        '{"parameters": {"height": 1e999}}',
+        '{"parameters": {"height": NaN}}',
+        '{"parameters": {}, "beyond": "height"}',
+        '{"parameters": ' + "[" * 5000,
+        "\udcff",
+    ],
+)
+@pytest.mark.parametrize("path", ["references/block", "procedure"])
+def test_pictures_of_parameters_that_are_none_are_refused(running: Studio, path: str, of: str) -> None:
+    query = quote(of, errors="surrogateescape")
+    assert running.request("GET", f"/api/{path}/render?of={query}")[0] in (404, 422)
+    assert running.request("GET", "/api/procedure/render")[1].startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize("query", ["azimuth=nan", "azimuth=1e999", "elevation=x", "size=1e9", "size=-1", "shape=all"])

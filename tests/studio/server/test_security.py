@@ -73,7 +73,9 @@ def test_the_token_of_the_address_brings_a_cookie_and_a_key_that_differ_from_it(
             ("GET", path)
             for path in ("/api/explanation", "/api/runs/001", "/api/references/a", "/api/references/a/shape")
         ),
-        *(("GET", path) for path in ("/api/compare?before=001&after=002", "/nothing")),
+        *(("GET", path) for path in ("/api/compare?before=001&after=002", "/nothing", "/api/next")),
+        *(("GET", path) for path in ("/api/suggestions/0/merge", "/api/arrivals?name=a.obj")),
+        ("POST", "/api/arrivals?name=a.obj"),
         *(("POST", path) for path in ("/api/fit", "/api/explain", "/api/export", "/api/cancel", "/api/source/copy")),
         *(("POST", path) for path in ("/api/pictures/0.png", "/", "/api/suggestions/0/apply", "/api/revisions/1/undo")),
         *(("PATCH", path) for path in ("/api/settings", "/api/marks", "/api/references")),
