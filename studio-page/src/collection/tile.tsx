@@ -5,9 +5,10 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { Badges, Pick } from "../curating/badges";
 import { extend, toggle } from "../curating/selection";
+import { tintOf } from "../state/scale";
 import { gain, NOTED, stands, valueOf } from "../state/grades";
 import { inspect } from "../state/route";
-import { collection } from "../state/studio";
+import { collection, settings } from "../state/studio";
 import { Icon } from "../ui/icons";
 import { fixed } from "../ui/numbers";
 import { GradeMark, Picture } from "../ui/picture";
@@ -24,7 +25,10 @@ const STAGES: Partial<Record<Tile["stage"], [string, string]>> = {
 
 /** Drawn anew only when its tile changes: there may be hundreds, and a fit changes them often. */
 export function TileCard({ tile, children }: Props) {
-  return useMemo(() => <Card tile={tile}>{children}</Card>, [tile, children, collection.value.judge]);
+  return useMemo(
+    () => <Card tile={tile}>{children}</Card>,
+    [tile, children, collection.value.judge, settings.value?.scale],
+  );
 }
 
 interface Props {
@@ -56,7 +60,7 @@ function Card({ tile, children }: Props) {
         }}
       >
         <Picture url={tile.reference} tint={null} alt="reference" />
-        <Picture url={tile.replica} tint={tile.colour} alt="replica" dim={tile.stale} />
+        <Picture url={tile.replica} tint={tintOf(tile)} alt="replica" dim={tile.stale} />
       </button>
       <footer onClick={() => inspect(tile.slug)}>
         <span class="name" title={tile.name}>

@@ -49,6 +49,7 @@ function Row({ parameter }: { parameter: Parameter }) {
       predicted={null}
       spread={null}
       disabled={false}
+      told=""
       onChange={(next) => lock(name, next)}
     />
   );

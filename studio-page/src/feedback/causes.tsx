@@ -1,5 +1,6 @@
 /** Why references differ, collected over the collection: each cause, and whom it befalls. */
 
+import { tintOf } from "../state/scale";
 import { inspect } from "../state/route";
 import { tiles } from "../state/studio";
 import { Picture } from "../ui/picture";
@@ -37,11 +38,7 @@ function SharedRow({ cause: { kind, text, references } }: { cause: SharedCause }
             title={tiles.value.get(slug)?.name}
             onClick={() => inspect(slug)}
           >
-            <Picture
-              url={tiles.value.get(slug)?.reference ?? null}
-              tint={tiles.value.get(slug)?.colour ?? null}
-              alt={slug}
-            />
+            <Picture url={tiles.value.get(slug)?.reference ?? null} tint={tintOf(tiles.value.get(slug))} alt={slug} />
           </button>
         ))}
         {known.length > MOST && <span class="soft">+{known.length - MOST}</span>}

@@ -1,5 +1,6 @@
 /** Pairs that the author called the same or different. */
 
+import { tintOf } from "../state/scale";
 import { change, mark } from "../state/actions";
 import { inspect } from "../state/route";
 import { valueOf } from "../state/grades";
@@ -113,7 +114,7 @@ function Line({ one }: { one: Mark }) {
         <Picture url={a.reference} tint={null} alt={a.name} />
       </button>
       <button type="button" class="thumb" title={own ? `replica of ${a.name}` : b.name} onClick={() => inspect(b.slug)}>
-        <Picture url={own ? a.replica : b.reference} tint={own ? a.colour : null} alt={b.name} />
+        <Picture url={own ? a.replica : b.reference} tint={own ? tintOf(a) : null} alt={b.name} />
       </button>
       <span class="name">{own ? a.name : `${a.name}, ${b.name}`}</span>
       {own && (

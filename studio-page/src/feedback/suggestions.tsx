@@ -1,5 +1,6 @@
 /** What to write next: changes of the procedure that were tried and helped. */
 
+import { tintOf } from "../state/scale";
 import { copy } from "../state/actions";
 import { inspect } from "../state/route";
 import { procedure, tiles } from "../state/studio";
@@ -61,7 +62,7 @@ export function SuggestionCard({ suggestion, index }: { suggestion: Suggestion; 
               >
                 <Picture
                   url={tiles.value.get(slug)?.reference ?? null}
-                  tint={tiles.value.get(slug)?.colour ?? null}
+                  tint={tintOf(tiles.value.get(slug))}
                   alt={slug}
                 />
               </button>

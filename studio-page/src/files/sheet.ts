@@ -2,6 +2,7 @@
 
 import { signal } from "@preact/signals";
 import { leafed } from "../collection/order";
+import { tintOf } from "../state/scale";
 import { complain } from "../state/notices";
 import { valueOf } from "../state/grades";
 import { collection, project, tileOf } from "../state/studio";
@@ -53,7 +54,7 @@ async function sheet(tiles: readonly Tile[]): Promise<HTMLCanvasElement> {
   for (const [i, tile] of tiles.entries()) {
     const [x, y] = [GAP + (i % columns) * wide, HEAD + Math.floor(i / columns) * high];
     await draw(pen, tile.reference, null, x, y);
-    await draw(pen, tile.replica, tile.colour, x + THUMB, y);
+    await draw(pen, tile.replica, tintOf(tile), x + THUMB, y);
     pen.font = "12px system-ui, sans-serif";
     pen.fillStyle = colour("--ink");
     const value = valueOf(collection.value.judge, tile);

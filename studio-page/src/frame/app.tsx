@@ -10,6 +10,7 @@ import { Inspector } from "../inspector/view";
 import { startEditing } from "../loop/editing";
 import { LoopView } from "../loop/view";
 import { ParametersView } from "../parameters/view";
+import { asking, Palette } from "../palette/palette";
 import { fit } from "../state/actions";
 import { useKeys } from "../state/keys";
 import { go, route, VIEWS } from "../state/route";
@@ -49,6 +50,7 @@ export function App() {
         if (!fitting.value && procedure.value.state !== "broken") fit();
       },
     },
+    { keys: ["k"], modified: true, does: "all commands and references", run: () => (asking.value = !asking.value) },
     { keys: ["d"], does: "dark or light", run: switchTheme },
   ]);
   useSignalEffect(() => {
@@ -76,6 +78,7 @@ export function App() {
       {slug && <Inspector slug={slug} />}
       <Help />
       <DropCover />
+      <Palette />
       <Notices />
     </>
   );

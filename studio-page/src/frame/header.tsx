@@ -10,6 +10,7 @@ import { switchTheme, theme } from "../state/theme";
 import { Button } from "../ui/controls";
 import { duration } from "../ui/numbers";
 import { ExportMenu } from "./exporting";
+import { asking } from "../palette/palette";
 import { helping } from "./help";
 import { Working } from "./progress";
 
@@ -44,6 +45,7 @@ export function Header() {
         title={`Switch to ${theme.value === "dark" ? "light" : "dark"} colours`}
         onClick={switchTheme}
       />
+      <Button kind="quiet" icon="search" title={`Commands (${MODIFIER}K)`} onClick={() => (asking.value = true)} />
       <Button kind="quiet" icon="help" title="Keys (?)" onClick={() => (helping.value = true)} />
     </header>
   );
@@ -64,7 +66,7 @@ export function Status() {
   if (!connected.value) {
     return (
       <p class="status bad" title={lost.value}>
-        not connected
+        {lost.value}
       </p>
     );
   }

@@ -1,5 +1,6 @@
 /** References that changed sides, or moved, between two iterations. */
 
+import { tintOf } from "../state/scale";
 import { inspect } from "../state/route";
 import { tiles } from "../state/studio";
 import { fixed } from "../ui/numbers";
@@ -60,8 +61,16 @@ function MoveCard({ move }: { move: Move }) {
         onClick={() => slug !== null && inspect(slug)}
       >
         <Picture url={move.reference} tint={null} alt="reference" />
-        <Picture url={move.replica_before} tint={move.colour_before} alt="before" />
-        <Picture url={move.replica_after} tint={move.colour_after} alt="after" />
+        <Picture
+          url={move.replica_before}
+          tint={tintOf({ grade: move.grade_before, distance: null, colour: move.colour_before })}
+          alt="before"
+        />
+        <Picture
+          url={move.replica_after}
+          tint={tintOf({ grade: move.grade_after, distance: null, colour: move.colour_after })}
+          alt="after"
+        />
       </button>
       <footer>
         <span class="name" title={move.name}>

@@ -26,7 +26,12 @@ export function ControlOf(props: Control) {
       return <Stepper {...props} />;
     case "binary":
       return (
-        <Toggle label={props.value ? "yes" : "no"} on={Boolean(props.value)} onChange={(on) => props.onChange(on)} />
+        <Toggle
+          label={props.value ? "yes" : "no"}
+          name={props.parameter.name}
+          on={Boolean(props.value)}
+          onChange={(on) => props.onChange(on)}
+        />
       );
     case "choice":
       return <Choice {...props} />;
@@ -81,7 +86,7 @@ function Stepper({ parameter, value, disabled, onChange }: Control) {
     );
   }
   return (
-    <div class="stepper">
+    <div class="stepper" role="group" aria-label={parameter.name}>
       <Button disabled={disabled || now <= low} title={`${parameter.name} less`} onClick={() => onChange(now - 1)}>
         −
       </Button>

@@ -7,6 +7,7 @@ import { Button } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { fixed, plural, significant } from "../ui/numbers";
 import { GradeMark } from "../ui/picture";
+import { Spoken } from "../ui/spoken";
 import type { Piece } from "../wire/messages";
 import { MEASURES } from "../wire/messages/settings";
 import { boxOf, pointed } from "./causes";
@@ -21,7 +22,8 @@ export function Figures() {
   const found = reference.value && valueOf(judge, reference.value);
   const better = edited.value ? gain(judge, found, value) : null;
   return (
-    <section class={`figures ${waiting.value && figures.value ? "waiting" : ""}`} aria-live="polite">
+    <section class={`figures ${waiting.value && figures.value ? "waiting" : ""}`}>
+      <Spoken text={failed ? "no shape" : value === null ? "" : `${now?.grade ?? ""}, ${fixed(value, 2)}`} />
       <div class="main">
         <GradeMark grade={now && value !== null ? now.grade : null} />
         <output data-figure="value">{fixed(value)}</output>

@@ -4,6 +4,7 @@ import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { neighbour } from "../collection/order";
 import { at } from "../collection/focus";
+import { PrintedFor } from "../console/panel";
 import { mark } from "../state/actions";
 import { useKeys } from "../state/keys";
 import { go, inspect } from "../state/route";
@@ -66,7 +67,7 @@ function Pair({ slug }: { slug: Slug }) {
   };
   const close = () => go("collection");
   return (
-    <div class="inspector" role="region" aria-label="Inspector" tabIndex={-1} ref={self}>
+    <div class="inspector" role="main" aria-label="Inspector" tabIndex={-1} ref={self}>
       <InspectorKeys slug={slug} step={step} close={close} />
       <div class="workplace">
         <div class="tools">
@@ -102,6 +103,7 @@ function Pair({ slug }: { slug: Slug }) {
         <Parameters />
         <Causes />
         <Judgement />
+        <PrintedFor slug={slug} />
         <Facts />
         <NotedOf slug={slug} />
         <Steps slug={slug} />

@@ -69,6 +69,16 @@ export function Settings() {
           onChange={(value) => void change({ [name]: value })}
         />
       ))}
+      <Select
+        label="Colours"
+        title="Of grades: from purple to yellow, as everybody can read them, or the paper's red to green"
+        options={[
+          { value: "clear", label: "clear to all" },
+          { value: "paper", label: "green to red" },
+        ]}
+        value={now.scale}
+        onChange={(scale) => void change({ scale })}
+      />
       {NUMBERS.filter(([, , shown]) => !shown || shown(now)).map(([name, label]) => (
         <label key={name} class="field" title={SETTINGS[name].help}>
           <span>{label}</span>

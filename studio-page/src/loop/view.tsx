@@ -1,5 +1,6 @@
 /** The loop: the procedure's text on one side, the fit on the other. */
 
+import { ConsolePanel } from "../console/panel";
 import { cancel, fit } from "../state/actions";
 import { elapsed } from "../state/clock";
 import { collection, fitting, jobs, procedure, settings } from "../state/studio";
@@ -42,6 +43,7 @@ export function LoopView() {
           <h2>Training</h2>
           <Curve curve={job.curve} epochs={settings.value?.epochs ?? 0} />
         </section>
+        <ConsolePanel />
         <section>
           <h2>Settings</h2>
           <Settings />

@@ -19,6 +19,7 @@ import type {
   Sweep,
   Tile,
 } from "../wire/messages";
+import { take } from "./printed";
 import { connect } from "../wire/live";
 import { counted } from "./grades";
 import { complain, tell } from "./notices";
@@ -158,6 +159,9 @@ function apply(change: Change): void {
     case "settings":
       settings.value = change.settings;
       return;
+    case "printed":
+      take(change.lines, false);
+      return;
     case "problems":
       problems.value = change.problems;
       return;
@@ -185,6 +189,7 @@ function replace(state: State): void {
   duplicates.value = state.duplicates;
   explained.value = state.explanation;
   problems.value = state.problems;
+  take(state.console, true);
   ready.value = true;
 }
 

@@ -103,12 +103,20 @@ export function Select<T extends string>(props: {
   );
 }
 
-export function Toggle(props: { label: string; on: boolean; title?: string; onChange: (on: boolean) => void }) {
+/** name: what it is called where its label says how it stands. */
+export function Toggle(props: {
+  label: string;
+  name?: string;
+  on: boolean;
+  title?: string;
+  onChange: (on: boolean) => void;
+}) {
   return (
     <label class="toggle" title={props.title}>
       <input
         type="checkbox"
         role="switch"
+        aria-label={props.name}
         checked={props.on}
         onChange={(event) => props.onChange(event.currentTarget.checked)}
       />

@@ -7,7 +7,7 @@ from shapewright.studio.project.preferences import SHAPE_SECONDS, Preferences
 
 def test_the_page_gets_its_own_entries_and_some_settings():
     record = msgspec.to_builtins(Preferences().message())
-    assert list(record)[:3] == ["auto_fit", "fresh", "preset"] and record["shape_seconds"] == SHAPE_SECONDS
+    assert list(record)[:4] == ["auto_fit", "fresh", "scale", "preset"] and record["shape_seconds"] == SHAPE_SECONDS
     assert set(record) == set(Preferences.described()) and record["samples"] == Settings.samples
     assert all(Preferences.described()[name] == described()[name] for name in record if name in described())
 

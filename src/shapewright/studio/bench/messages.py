@@ -168,6 +168,13 @@ class Measured(BenchMessage, frozen=True):
     distance: float | None
 
 
+class Printed(BenchMessage, frozen=True):
+    """The procedure has printed something."""
+
+    slug: Slug | None  # of the reference whose replica was built, where it is known
+    text: str
+
+
 class SweepEnded(BenchMessage, frozen=True):
     """A sweep is at its end."""
 
@@ -193,6 +200,6 @@ class Reply(BenchMessage, frozen=True):
     error: str | None = None  # there is no such thing
 
 
-News: TypeAlias = Drawn | Parted | Alike | Unreadable | Loaded | Unusable | Swept | Measured | SweepEnded
+News: TypeAlias = Drawn | Parted | Alike | Unreadable | Loaded | Unusable | Swept | Measured | Printed | SweepEnded
 """What is for the session."""
 Answer: TypeAlias = Ready | Answered | Reply | News

@@ -59,6 +59,7 @@ class Bench:
         self._tasks: dict[str, Iterator[None]] = {}
         self._standing = Standing()
         self._overview = Overview(workshop, self._send)
+        workshop.on_printed = lambda slug, text: self._send(messages.Printed(slug=slug, text=text))
 
     def run(self) -> None:
         """Serve; tasks are moved on while no request waits."""
@@ -226,7 +227,7 @@ class Bench:
             answer(FailedMessage(id=number, slug=slug, problem=problem, active=active))
 
         try:
-            built = self._workshop.build(request.parameters or {}, request.beyond)
+            built = self._workshop.build(request.parameters or {}, request.beyond, slug)
         except Broken as error:
             fail(error.problem)
             return

@@ -48,7 +48,7 @@ class Sweep:
         shelf: Shelf[Built] = Shelf(_MEMORY, lambda built: shape_bytes(built.build.shape))
         late = 0
         for slug in in_turn(self.items, self.first):
-            built = self.workshop.build(self.items[slug])
+            built = self.workshop.build(self.items[slug], slug=slug)
             if built is None:
                 return
             shelf.put(slug, built)
@@ -59,7 +59,7 @@ class Sweep:
                 return
             yield
         for slug in in_turn(self.items, self.first):
-            again = shelf.get(slug) or self.workshop.build(self.items[slug])
+            again = shelf.get(slug) or self.workshop.build(self.items[slug], slug=slug)
             if again is None:
                 return
             measured = self._measured(slug, again)
@@ -72,7 +72,7 @@ class Sweep:
         """Sends no shape that is further from its reference than the one with the least parameters."""
         late = 0
         for slug in in_turn(self.items, self.first):
-            guess, other = self.workshop.build(self.items[slug]), self.workshop.build(least[slug])
+            guess, other = self.workshop.build(self.items[slug], slug=slug), self.workshop.build(least[slug], slug=slug)
             if guess is None or other is None:
                 return
             found, floor = self._measured(slug, guess), self._measured(slug, other)

@@ -6,7 +6,7 @@ import pickle
 import queue
 import sys
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,8 +20,10 @@ from shapewright.processes.worker import SINGLE_THREADED
 from shapewright.studio.bench.planning.plan import Plan
 from shapewright.studio.wire.child import Child, Frame
 from shapewright.studio.wire.collection import Parameter
+from shapewright.studio.wire.printed import Printed
 from shapewright.studio.wire.problems import Problem, of_error, syntax_problem
 from shapewright.studio.wire.requests import Explore
+from shapewright.studio.wire.values import Slug
 
 LOADING_SECONDS = 20.0
 """What reading the author's file may take, its imports included."""
@@ -64,10 +66,13 @@ class Workshop:
     """Builds shapes of one procedure.
 
     interrupt: set by another thread, it ends a build that is under way.
+    on_printed: called with what the procedure has printed, and the reference whose replica was built.
     """
 
     def __init__(self) -> None:
         self.interrupt = threading.Event()
+        self.on_printed: Callable[[Slug | None, str], object] = lambda slug, text: None
+        self._printed: Printed | None = None
         self._child: Child | None = None
         self._answers: queue.SimpleQueue[Frame | None] = queue.SimpleQueue()
         self._path: Path | None = None
@@ -91,14 +96,15 @@ class Workshop:
         self._path = path
         return version
 
-    def build(self, values: Mapping[str, Value], beyond: Sequence[str] = ()) -> Built | None:
+    def build(self, values: Mapping[str, Value], beyond: Sequence[str] = (), slug: Slug | None = None) -> Built | None:
         """Build one shape; None when that was interrupted. Raises Broken when the file has become unusable.
 
-        beyond: names of numbers that may lie outside their Ranges.
+        beyond: names of numbers that may lie outside their Ranges. slug: the reference that it is a replica of.
         """
         self._ask("build", (dict(values), tuple(beyond)))
         patience = 1.25 * self._limits.seconds + 0.5
         answer = self._wait(patience, patience) or Failure.of(too_long(self._limits))
+        self._pass_on(slug)
         if isinstance(answer, Built):
             return answer
         self._stop()
@@ -141,9 +147,12 @@ class Workshop:
     def _start(self, path: Path, limits: Limits) -> Version:
         self._limits = limits
         self._answers = queue.SimpleQueue()
-        self._child = Child(_PROGRAM, self._answers.put, own_group=False, environment=SINGLE_THREADED)
+        self._printed = Printed()
+        apart: dict[str, Any] = {"own_group": False, "environment": SINGLE_THREADED, "printed": self._printed}
+        self._child = Child(_PROGRAM, self._answers.put, **apart)
         self._child.send("load", pickle.dumps((str(path), list(sys.path), limits)))
         version: Version | Failure = self._wait(_START_SECONDS, _PATIENCE) or no_answer(_PATIENCE)
+        self._pass_on(None)
         if isinstance(version, Failure):
             self._stop()
             raise version.error()
@@ -161,6 +170,8 @@ class Workshop:
                 frame = self._answers.get(timeout=min(_STEP, patience))
             except queue.Empty:
                 patience -= _STEP
+                if self._printed:
+                    self._printed.bound()
                 continue
             if frame is None:
                 return Failure.of(crash(self._child.process))
@@ -169,7 +180,17 @@ class Workshop:
             patience = again
         return None
 
+    def _pass_on(self, slug: Slug | None) -> None:
+        """Tell what was printed; the terminal says it, too."""
+        text = self._printed.take() if self._printed else ""
+        if text:
+            sys.stderr.write(text)
+            self.on_printed(slug, text)
+
     def _stop(self) -> None:
         if self._child:
             self._child.end()
-        self._child = None
+            self._pass_on(None)
+        if self._printed:
+            self._printed.close()
+        self._child = self._printed = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import sys
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -15,8 +16,12 @@ from shapewright.studio.jobs.events import OPENING, Advanced, AnyEvent, Done, Fa
 from shapewright.studio.jobs.remaining import left
 from shapewright.studio.project.timings import Took
 from shapewright.studio.wire.child import Child, Frame, on_this_loop
+from shapewright.studio.wire.printed import Printed
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.work import Job, JobKind, JobStage
+
+_OFTEN = 0.3
+"""Seconds between two looks at what a job has printed."""
 
 
 @dataclass(eq=False)
@@ -27,6 +32,7 @@ class Runner:
     root: Path  # folder that problems name files relative to
     changed: Callable[[Runner], object]  # called after every change
     guessed: Callable[[Guessed], object]  # called with parameters that are known before the end of a fit
+    printed: Callable[[JobKind, str], object]  # called with what it prints
     _usual: Mapping[str, Took] = field(default_factory=dict)
     _started: float = 0.0
     _stage_started: float = 0.0
@@ -68,10 +74,12 @@ class Runner:
 
     async def _run(self, module: str, request: dict[str, Any]) -> None:
         failed: Problem | None = None
+        printed = Printed()
+        listener = asyncio.create_task(self._listen(printed))
         try:
             frames: asyncio.Queue[Frame | None] = asyncio.Queue()
             # Requests stay open: when they close, the program knows that the studio has ended.
-            self._child = child = Child(module, on_this_loop(frames.put_nowait), AnyEvent)
+            self._child = child = Child(module, on_this_loop(frames.put_nowait), AnyEvent, printed=printed)
             if self._job.state == "cancelling":
                 child.end()
             child.send({**request, "root": str(self.root)})
@@ -89,6 +97,9 @@ class Runner:
             failed = Problem(self.kind, f"it could not be started: {error}")
         finally:
             self._child = None
+            listener.cancel()
+            self._hear(printed)
+            printed.close()
             self._job.seconds = time.monotonic() - self._started
         if self._job.state == "cancelling":
             self._job.state = "cancelled"
@@ -97,6 +108,17 @@ class Runner:
         self._job.left = None
         self._end_stage(time.monotonic())
         self.changed(self)
+
+    async def _listen(self, printed: Printed) -> None:
+        while True:
+            await asyncio.sleep(_OFTEN)
+            self._hear(printed)
+
+    def _hear(self, printed: Printed) -> None:
+        """Tell what was printed; the terminal says it, too."""
+        if text := printed.take():
+            sys.stderr.write(text)
+            self.printed(self.kind, text)
 
     def _take(self, event: Advanced | Guessed | Done) -> None:
         match event:

@@ -9,13 +9,14 @@ from typing import Annotated, Any
 
 from shapewright.fields import Field, fields_of, meant
 from shapewright.settings import Preset, Settings, described, groups
-from shapewright.studio.wire.changes import ChosenSettings
+from shapewright.studio.wire.changes import ChosenSettings, Scale
 
 SHAPE_SECONDS = 5.0
 """Seconds that one shape may take in the studio: half of what a fit on the command line gives it, because one waits."""
 _JUDGE = ("judge", "replicated", "close", "threshold", "vif")
 _PREPARED = ("drop", "leave_out")
 _FIT = ("samples", "epochs", "refine", "facing", "rounds", "seed", *_JUDGE, "shape_seconds", *_PREPARED)
+_OWN = ("auto_fit", "fresh", "scale", "preset")
 _GROUPS = groups()
 _KEPT = (
     *(*_GROUPS["preparing"], *_GROUPS["building"], *(name for name in _GROUPS["judging"] if name != "judge")),
@@ -30,6 +31,7 @@ class Preferences:
 
     auto_fit: Annotated[bool, "A fit follows every save."] = True
     fresh: Annotated[bool, "A fit learns anew, and does not resume the run before."] = False
+    scale: Annotated[Scale, "The colours of grades in the page."] = "clear"
     preset: Annotated[Preset, "Settings of fits to start from."] = "fast"
     settings: Settings = field(default_factory=lambda: Settings(shape_seconds=SHAPE_SECONDS))
     chosen: Mapping[str, Any] = field(default_factory=dict)  # those of ChosenSettings that were chosen in the page
@@ -59,7 +61,7 @@ class Preferences:
     @staticmethod
     def described() -> Mapping[str, Field]:
         """What each field of ``ChosenSettings`` may be."""
-        own = {name: field for name, field in fields_of(Preferences).items() if name in ("auto_fit", "fresh", "preset")}
+        own = {name: field for name, field in fields_of(Preferences).items() if name in _OWN}
         return own | {name: described()[name] for name in _FIT}
 
     def message(self) -> ChosenSettings:

@@ -42,14 +42,15 @@ class JobList:
         pages: Pages,
         timings: Timings,
         ended: Callable[[Job], object],
+        printed: Callable[[JobKind, str], object],
     ) -> None:
         """Prepare all runners.
 
-        ended: called with every job that has ended.
+        ended: called with every job that has ended. printed: called with what a job prints.
         """
         self._timings = timings
         self._project, self._display, self._bench, self._pages, self._ended = project, display, bench, pages, ended
-        self._runners = {kind: Runner(kind, project.folder, self._changed, self._guessed) for kind in KINDS}
+        self._runners = {kind: Runner(kind, project.folder, self._changed, self._guessed, printed) for kind in KINDS}
         self._tasks: set[asyncio.Task[Any]] = set()
 
     def jobs(self) -> dict[JobKind, Job]:

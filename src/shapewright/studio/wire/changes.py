@@ -12,9 +12,13 @@ from shapewright.studio.wire.judgement import Judge, Marking
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.revisions import Noted
 from shapewright.studio.wire.values import Message, Slug
-from shapewright.studio.wire.work import Job, JobKind, Run, Sweep
+from shapewright.studio.wire.work import Job, JobKind, Line, Run, Sweep
 
 BenchState: TypeAlias = Literal["starting", "ready", "restarting"]
+
+
+Scale: TypeAlias = Literal["clear", "paper"]
+"""Of grades in the page: colours that differ in lightness, for all eyes; or the paper's green to red."""
 
 
 class ProjectNames(Struct, frozen=True, kw_only=True):
@@ -32,6 +36,7 @@ class ChosenSettings(Struct, frozen=True, kw_only=True):
 
     auto_fit: bool  # a fit follows every save
     fresh: bool  # fits do not resume the run before
+    scale: Scale
     preset: Preset
     samples: int
     epochs: int
@@ -66,6 +71,7 @@ class State(Message, frozen=True, kw_only=True, tag="state"):
     noted: dict[Slug, Noted]  # of the references of which something is noted
     duplicates: list[Duplicate]  # known so far
     explanation: bool  # the run that is shown has one
+    console: list[Line]  # what was printed last, the oldest first
     problems: list[Problem]  # of the whole project, the worst first; empty when all is well
 
 
@@ -129,6 +135,12 @@ class SettingsChanged(Message, frozen=True, kw_only=True, tag="settings"):
     settings: ChosenSettings
 
 
+class LinesPrinted(Message, frozen=True, kw_only=True, tag="printed"):
+    """Lines that follow those of ``State.console``."""
+
+    lines: list[Line]
+
+
 class ProblemsChanged(Message, frozen=True, kw_only=True, tag="problems"):
     """Replaces ``State.problems``."""
 
@@ -159,6 +171,7 @@ Change: TypeAlias = Annotated[
     | NotedChanged
     | DuplicatesChanged
     | SettingsChanged
+    | LinesPrinted
     | ProblemsChanged
     | ExplanationChanged
     | WrongMessage,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import io
 import os
 import queue
 import signal
@@ -20,6 +21,7 @@ from typing import IO, Any, BinaryIO
 
 import msgspec
 
+from shapewright.studio.wire.printed import Printed
 from shapewright.studio.wire.values import encode
 
 Frame = tuple[Any, bytes]
@@ -39,6 +41,7 @@ class Child:
     messages: the type of the messages that it sends.
     own_group: whether it leads a process group, with which it is ended.
     environment: variables that it gets besides those of this process.
+    printed: takes what it prints; without it that goes where this process prints its errors.
     """
 
     def __init__(
@@ -48,12 +51,14 @@ class Child:
         messages: Any = Any,
         own_group: bool = True,
         environment: Mapping[str, str] | None = None,
+        printed: Printed | None = None,
     ) -> None:
         self._leads = own_group and os.name == "posix"
         self.process = subprocess.Popen(
             [sys.executable, "-P", "-m", module],  # -P: a random.py of the author in the working folder is not Python's
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
+            stderr=printed.stream if printed else None,
             env={**os.environ, **(environment or {})},
             start_new_session=self._leads,
         )
@@ -124,6 +129,9 @@ def own_streams() -> tuple[BinaryIO, BinaryIO]:
     os.dup2(nothing, 0)
     os.close(nothing)
     os.dup2(2, 1)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(line_buffering=True)  # what was printed before a crash is not lost
     return requests, answers
 
 

@@ -20,6 +20,19 @@ Answer: TypeAlias = Annotated[AnswerKind, Meta(title="Answer")]
 """Where the parameters come from that are shown before the end of a fit."""
 
 
+Speaker: TypeAlias = Annotated[Literal["procedure", "fit", "explain", "export"], Meta(title="Speaker")]
+"""Who prints: the procedure while the studio builds with it, or a job with all its workers."""
+
+
+class Line(Struct, frozen=True, kw_only=True):
+    """A line that was printed."""
+
+    number: int  # one more than that of the line before
+    speaker: Speaker
+    slug: Slug | None  # of the reference whose replica was built, where it is known
+    text: str
+
+
 class JobStage(Struct, kw_only=True):
     """A stage of a job, and how far it is."""
 

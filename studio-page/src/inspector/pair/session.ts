@@ -5,7 +5,7 @@ import { complain } from "../../state/notices";
 import { connected, dimension, procedure, tileOf } from "../../state/studio";
 import { evaluate, onEvaluated } from "../../wire/live";
 import type { Evaluated, MeshMessage, ResidualsMessage } from "../../wire/binary";
-import { prepare, thin } from "../../viewer/solids/preparing";
+import { prepare, thin, whenItFails } from "../../viewer/solids/preparing";
 import type { Solid } from "../../viewer/solids/solid";
 import type {
   VerdictMessage,
@@ -58,6 +58,8 @@ export const atLimit = computed(() => new Set(outcome.value?.at_limit ?? referen
 /** Number of the evaluation whose replica came last. */
 let newest = 0;
 let said = 0;
+
+whenItFails(() => complain("A large mesh could not be made ready: the browser may lack memory. Reload the page."));
 let unanswered = 0;
 
 /** Say of files which axes point where and what they hold. It is shown at once, so that two words in a moment are both kept. */

@@ -1,6 +1,5 @@
 /** Meshes are made ready for the stage: small ones at once, large ones by a worker. */
 
-import { complain } from "../../state/notices";
 import { AT_ONCE, bodyOf, MOST_DRAWN, sightOf } from "./solid";
 import type { Solid, Triangles } from "./solid";
 import type { Done, Task } from "./worker";
@@ -9,6 +8,7 @@ import type { Done, Task } from "./worker";
 type Asked = Task extends infer T ? (T extends Task ? Omit<T, "id"> : never) : never;
 
 let worker: Worker | null = null;
+let onTrouble: () => void = () => undefined;
 let last = 0;
 const heard = new Map<number, (done: Done) => void>();
 
@@ -39,14 +39,17 @@ export function thin<M extends Triangles & { colours: Float32Array }>(mesh: M, r
   return undefined;
 }
 
+/** trouble: called where the worker fails, as without memory. */
+export function whenItFails(trouble: () => void): void {
+  onTrouble = trouble;
+}
+
 /** answered: returns whether that was the last answer. */
 function ask(task: Asked, answered: (done: Done) => boolean): void {
   if (!worker) {
     worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
     worker.addEventListener("message", ({ data }: MessageEvent<Done>) => heard.get(data.id)?.(data));
-    worker.addEventListener("error", () => {
-      complain("A large mesh could not be made ready: the browser may lack memory. Reload the page.");
-    });
+    worker.addEventListener("error", () => onTrouble());
   }
   const id = ++last;
   heard.set(id, (done) => {

@@ -1,7 +1,7 @@
 // Made from src/shapewright/studio/wire/changes.py by `python tools/message_types.py`.
 
 import type { Collection, Duplicate, Procedure, Tile } from "./collection";
-import type { Job, JobKind, Run, Sweep } from "./work";
+import type { Job, JobKind, Line, Run, Sweep } from "./work";
 import type { Judge, Marking } from "./judgement";
 import type { Noted } from "./revisions";
 import type { Problem } from "./problems";
@@ -23,6 +23,7 @@ export interface ChosenSettings {
   auto_fit: boolean;
   /** fits do not resume the run before. */
   fresh: boolean;
+  scale: "clear" | "paper";
   preset: "fast" | "paper";
   samples: number;
   epochs: number;
@@ -63,6 +64,8 @@ export interface State {
   duplicates: Duplicate[];
   /** the run that is shown has one. */
   explanation: boolean;
+  /** what was printed last, the oldest first. */
+  console: Line[];
   /** of the whole project, the worst first; empty when all is well. */
   problems: Problem[];
 }
@@ -127,6 +130,12 @@ export interface SettingsChanged {
   settings: ChosenSettings;
 }
 
+/** Lines that follow those of ``State.console``. */
+export interface LinesPrinted {
+  type: "printed";
+  lines: Line[];
+}
+
 /** Replaces ``State.problems``. */
 export interface ProblemsChanged {
   type: "problems";
@@ -145,4 +154,4 @@ export interface WrongMessage {
   error: string;
 }
 
-export type Change = State | ProcedureChanged | TilesChanged | CollectionChanged | JobChanged | SweepChanged | RunsChanged | MarksChanged | NotedChanged | DuplicatesChanged | SettingsChanged | ProblemsChanged | ExplanationChanged | WrongMessage;
+export type Change = State | ProcedureChanged | TilesChanged | CollectionChanged | JobChanged | SweepChanged | RunsChanged | MarksChanged | NotedChanged | DuplicatesChanged | SettingsChanged | LinesPrinted | ProblemsChanged | ExplanationChanged | WrongMessage;

@@ -11,6 +11,18 @@ export type JobState = "idle" | "running" | "cancelling" | "done" | "cancelled" 
 
 export type Answer = "carried over" | "most similar samples" | "predicted";
 
+export type Speaker = "procedure" | "fit" | "explain" | "export";
+
+/** A line that was printed. */
+export interface Line {
+  /** one more than that of the line before. */
+  number: number;
+  speaker: Speaker;
+  /** of the reference whose replica was built, where it is known. */
+  slug: Slug | null;
+  text: string;
+}
+
 /** A stage of a job, and how far it is. */
 export interface JobStage {
   name: string;

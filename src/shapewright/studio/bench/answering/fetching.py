@@ -34,7 +34,7 @@ def fetched(
 def _pictured(request: messages.Fetch, references: Gallery, workshop: Workshop) -> ReferenceShape:
     if request.parameters is None:
         return references[request.slug or ""].shape
-    built = workshop.build(request.parameters, request.beyond) if workshop.open else None
+    built = workshop.build(request.parameters, request.beyond, slug=request.slug) if workshop.open else None
     if built is None or built.build.shape is None:
         raise ValueError("there is no replica")
     return built.build.shape
