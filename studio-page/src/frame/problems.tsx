@@ -35,7 +35,7 @@ export function ProblemLine({ problem }: { problem: Problem }) {
   const { file, line, text, message, count, slugs } = problem;
   const show = () => {
     go("loop");
-    openEditorAt(line ?? 1);
+    openEditorAt(line ?? 1, file ?? "");
   };
   return (
     <div class="problem">

@@ -1,10 +1,12 @@
 /** Every write of the procedure, the newest first: what it changed, and the way back to the text before it. */
 
 import { useSignal, useSignalEffect } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { file, files, read, startEditing } from "../loop/editing";
 import { written } from "../state/actions";
 import { complain } from "../state/notices";
 import { procedure, project } from "../state/studio";
-import { Button } from "../ui/controls";
+import { Button, Select } from "../ui/controls";
 import type { DiffLine, Revision, Writer } from "../wire/messages";
 import { requests } from "../wire/requests";
 import { Diff } from "./diff";
@@ -14,25 +16,51 @@ const FIRST = 12;
 export function Revisions() {
   const all = useSignal<Revision[]>([]);
   const whole = useSignal(false);
+  const of = useSignal("");
+  const asked = useSignal(0);
   useSignalEffect(() => {
-    const { digest } = procedure.value;
+    const [{ digest }, file] = [procedure.value, of.value];
+    void asked.value;
     requests
-      .revisions()
+      .revisions(file)
       .then((found) => {
-        if (procedure.peek().digest === digest) all.value = found;
+        if (procedure.peek().digest === digest && of.peek() === file) all.value = found;
       })
       .catch(complain);
   });
-  if (!all.value.length) return null;
+  useEffect(startEditing, []);
+  const others = files.value.length > 1;
+  if (!all.value.length && !others) return null;
   const shown = whole.value ? all.value : all.value.slice(0, FIRST);
   return (
     <section class="revisions">
       <h2>
-        Changes of {project.value.procedure} <small>{all.value.length}</small>
+        Changes of{" "}
+        {others ? (
+          <Select
+            label="Changes of"
+            hidden
+            options={files.value.map((value) => ({ value, label: value }))}
+            value={of.value || project.value.procedure}
+            onChange={(name) => (of.value = name === project.value.procedure ? "" : name)}
+          />
+        ) : (
+          project.value.procedure
+        )}{" "}
+        <small>{all.value.length}</small>
       </h2>
       <ol>
         {shown.map((one) => (
-          <Line key={one.number} one={one} />
+          <Line
+            key={`${of.value} ${one.number}`}
+            one={one}
+            file={of.value}
+            now={of.value ? (all.value[0]?.after ?? null) : procedure.value.digest}
+            undone={() => {
+              asked.value += 1;
+              if (file.peek() === of.peek()) void read();
+            }}
+          />
         ))}
       </ol>
       {shown.length < all.value.length && (
@@ -44,23 +72,28 @@ export function Revisions() {
   );
 }
 
-function Line({ one }: { one: Revision }) {
+/** file: empty for the procedure. now: digest of the text that it has. undone: called when another text was put back. */
+function Line(props: { one: Revision; file: string; now: string | null; undone: () => void }) {
+  const { one, file, now, undone } = props;
   const diff = useSignal<DiffLine[] | null>(null);
   const { number, added, removed, before } = one;
   const open = () => {
     if (diff.value) diff.value = null;
     else
       requests
-        .revision(number)
+        .revision(number, file)
         .then((found) => (diff.value = found.diff))
         .catch(complain);
   };
   const undo = () =>
     requests
-      .undo(number, procedure.value.digest)
-      .then((done) => written(`${project.value.procedure} is as it was before: ${said(one)}.`, done))
+      .undo(number, now, file)
+      .then((done) => {
+        undone();
+        written(`${file || project.value.procedure} is as it was before: ${said(one)}.`, done, file, undone);
+      })
       .catch(complain);
-  const here = before === procedure.value.digest;
+  const here = before === now;
   return (
     <li>
       <button type="button" class="what" aria-expanded={diff.value !== null} onClick={open}>
@@ -71,7 +104,7 @@ function Line({ one }: { one: Revision }) {
       <Button
         icon="reset"
         disabled={here}
-        title={here ? "The procedure has this text" : "Put the text of before this change back; you can undo that, too"}
+        title={here ? "The file has this text" : "Put the text of before this change back; you can undo that, too"}
         onClick={() => void undo()}
       >
         Undo to here

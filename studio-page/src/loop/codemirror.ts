@@ -1,7 +1,8 @@
 /** CodeMirror, loaded only when the editor is shown. */
 
+import { autocompletion } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
-import { python } from "@codemirror/lang-python";
+import { python, pythonLanguage } from "@codemirror/lang-python";
 import { bracketMatching, HighlightStyle, indentOnInput, indentUnit, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, setDiagnostics } from "@codemirror/lint";
 import type { Diagnostic } from "@codemirror/lint";
@@ -17,6 +18,7 @@ import {
 } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import type { Problem } from "../wire/messages";
+import { kitNames } from "./completion";
 
 const colours = HighlightStyle.define([
   {
@@ -46,6 +48,9 @@ const look = EditorView.theme({
   },
   ".cm-selectionMatch": { backgroundColor: "var(--selection)" },
   ".cm-panels": { backgroundColor: "var(--sunk)", color: "var(--ink)" },
+  ".cm-tooltip-autocomplete > ul": { fontFamily: "var(--mono)" },
+  ".cm-tooltip-autocomplete > ul > li[aria-selected]": { backgroundColor: "var(--accent-soft)", color: "var(--ink)" },
+  ".cm-completionDetail": { color: "var(--soft)", fontStyle: "normal" },
   ".cm-tooltip": { backgroundColor: "var(--panel)", border: "1px solid var(--line)", color: "var(--ink)" },
   ".cm-diagnostic-error": { borderLeftColor: "var(--bad)" },
 });
@@ -86,15 +91,15 @@ export function createEditor(
         highlightActiveLineGutter(),
         highlightSelectionMatches(),
         lintGutter(),
-        name.endsWith(".py") ? python() : [],
+        name.endsWith(".py") ? [python(), pythonLanguage.data.of({ autocomplete: kitNames }), autocompletion()] : [],
         syntaxHighlighting(colours),
         look,
-        EditorView.contentAttributes.of({ "aria-label": name }),
+        EditorView.contentAttributes.of({ "aria-label": name, tabindex: "0" }),
         keymap.of([
           { key: "Mod-s", preventDefault: true, run: () => (onSave(), true) },
           ...searchKeymap,
-          // Out of the text, so that Tab leads on; the focus stays in the editor, which keeps its keys.
-          { key: "Escape", run: () => (parent.closest<HTMLElement>("[data-keeps-keys]")?.focus(), true) },
+          // Out of the text to what follows it, so that Tab leads on; that is in the editor still, which keeps its keys.
+          { key: "Escape", run: () => (parent.parentElement?.querySelector<HTMLElement>("footer")?.focus(), true) },
           ...defaultKeymap,
           ...historyKeymap,
           indentWithTab,

@@ -9,26 +9,26 @@ export interface Draft {
   text: string;
 }
 
-const place = () => `shapewright.draft ${project.peek().folder}/${project.peek().procedure}`;
+const place = (file: string) => `shapewright.draft ${project.peek().folder}/${file || project.peek().procedure}`;
 
-export function keptDraft(): Draft | null {
+export function keptDraft(file: string): Draft | null {
   try {
-    return JSON.parse(localStorage.getItem(place()) ?? "null") as Draft | null;
+    return JSON.parse(localStorage.getItem(place(file)) ?? "null") as Draft | null;
   } catch {
     return null;
   }
 }
 
 /** Whether it could be kept. */
-export function keepDraft(draft: Draft): boolean {
+export function keepDraft(file: string, draft: Draft): boolean {
   try {
-    localStorage.setItem(place(), JSON.stringify(draft));
+    localStorage.setItem(place(file), JSON.stringify(draft));
     return true;
   } catch {
     return false;
   }
 }
 
-export function dropDraft(): void {
-  localStorage.removeItem(place());
+export function dropDraft(file: string): void {
+  localStorage.removeItem(place(file));
 }

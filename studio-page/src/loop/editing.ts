@@ -1,13 +1,17 @@
-/** The procedure's text in the page: what is on disk, what the author has typed, and how the two meet. */
+/** A text file in the page, mostly the procedure: what is on disk, what the author has typed, and how the two meet. */
 
 import { batch, computed, effect, signal } from "@preact/signals";
 import { complain, tell } from "../state/notices";
 import { go } from "../state/route";
-import { procedure, ready } from "../state/studio";
+import { procedure, project, ready } from "../state/studio";
 import type { Source } from "../wire/messages";
 import { RequestError, requests } from "../wire/requests";
 import { dropDraft, keepDraft, keptDraft } from "./draft";
 
+/** The name of the file that is open; empty for the procedure. */
+export const file = signal("");
+/** Names of all that can be opened, the procedure first. */
+export const files = signal<string[]>([]);
 /** The text that the edit began from. */
 export const base = signal<Source | null>(null);
 export const text = signal("");
@@ -27,25 +31,45 @@ export function startEditing(): void {
   started = true;
   effect(() => {
     const { digest, state } = procedure.value;
-    if (ready.value && (digest !== base.peek()?.digest || state === "broken" || gone.peek())) void read();
+    if (!ready.value) return;
+    list();
+    // Another program may have written any of them.
+    if (file.peek() || digest !== base.peek()?.digest || state === "broken" || gone.peek()) void read();
   });
-  let kept = false;
+  const kept = new Set<string>();
   effect(() => {
-    if (base.value && (dirty.value || gone.value)) {
-      if (!keepDraft({ base: base.value, text: text.value }) && !kept)
+    if (!base.value) return;
+    const name = file.peek();
+    if (dirty.value || gone.value) {
+      if (!keepDraft(name, { base: base.value, text: text.value }) && !kept.has(name))
         complain("The browser keeps no unsaved text: save before you close this page.");
-      kept = true;
-    } else if (kept) {
+      kept.add(name);
       // Only who kept it drops it: another tab may have typed it.
-      kept = false;
-      dropDraft();
-    }
+    } else if (kept.delete(name)) dropDraft(name);
   });
 }
 
-async function read(): Promise<void> {
+function list(): void {
+  requests.texts().then((found) => (files.value = found), complain);
+}
+
+/** Open another file; what was typed into the one before is kept, and is there when one comes back. */
+export async function openFile(name: string): Promise<void> {
+  const next = name === project.peek().procedure ? "" : name;
+  if (next === file.peek()) return;
+  batch(() => {
+    file.value = next;
+    [base.value, theirs.value, text.value, gone.value] = [null, null, "", ""];
+  });
+  await read();
+}
+
+/** Look at the file as it is now. */
+export async function read(): Promise<void> {
+  const name = file.peek();
   try {
-    const source = await requests.source();
+    const source = await requests.source(name);
+    if (name !== file.peek()) return;
     gone.value = source.unreadable ?? "";
     if (!base.value) restore(source);
     if (source.unreadable !== null || source.digest === base.value?.digest) return;
@@ -58,7 +82,7 @@ async function read(): Promise<void> {
 
 /** Go on from what was typed before this page was loaded, where there is something. */
 function restore(source: Source): void {
-  const draft = keptDraft();
+  const draft = keptDraft(file.peek());
   if (draft && (source.unreadable !== null || draft.text !== source.text)) {
     take(draft.base, draft.text);
     tell("What you typed and did not save is in the editor.", { label: "Open", run: () => go("loop") });
@@ -100,10 +124,12 @@ export async function saveAsNew(): Promise<void> {
 
 export async function save(over = false): Promise<void> {
   if (!base.value) return;
-  const saved = text.value;
+  const [name, saved] = [file.value, text.value];
   try {
-    const { digest } = await requests.saveSource(saved, over ? null : base.value.digest);
+    const { digest } = await requests.saveSource(name, saved, over ? null : base.value.digest);
+    if (name !== file.value) return;
     take({ ...base.value, text: saved, digest }, text.value);
+    list();
     gone.value = "";
   } catch (error) {
     if (error instanceof RequestError && error.status === 409 && typeof error.body.text === "string") {
@@ -113,13 +139,15 @@ export async function save(over = false): Promise<void> {
   }
 }
 
-export function openEditorAt(line: number): void {
-  goal.value = line;
+/** name: of the file, where it is one that can be opened. */
+export function openEditorAt(line: number, name: string): void {
+  void openFile(files.value.includes(name) ? name : "").then(() => (goal.value = line));
 }
 
 /** Change a parameter's Range in the editor's text; the author saves it, or not. */
 export async function proposeRange(name: string, low: string, high: string): Promise<void> {
   startEditing();
+  await openFile("");
   if (!base.value) await read();
   const range = new RegExp(`(^[ \\t]*${name}\\s*:[^\\n]*?\\bRange\\()\\s*[^,()]+,\\s*[^,()]+`, "m");
   if (!range.test(text.value)) {

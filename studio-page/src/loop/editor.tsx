@@ -5,21 +5,25 @@ import { useEffect, useRef } from "preact/hooks";
 import { MODIFIER } from "../state/keys";
 import { complain } from "../state/notices";
 import { problems, procedure, project } from "../state/studio";
-import { Button } from "../ui/controls";
+import { Button, Select } from "../ui/controls";
 import type { Editor } from "./codemirror";
-import { base, dirty, giveUp, goal, gone, save, saveAsNew, startEditing, text, theirs } from "./editing";
+import { base, dirty, file, files, giveUp, goal, gone, openFile, save, saveAsNew, startEditing } from "./editing";
+import { text, theirs } from "./editing";
 
 export function EditorPane() {
   const place = useRef<HTMLDivElement>(null);
   const loaded = useSignal(false);
+  // A file that was never there opens as well, to be told of.
+  const opened = base.value || gone.value ? file.value : null;
+  useEffect(startEditing, []);
   useEffect(() => {
-    startEditing();
+    if (opened === null) return undefined;
     let gone = false;
     let ends: (() => void)[] = [];
     import("./codemirror")
       .then(({ createEditor }) => {
         if (gone || !place.current) return;
-        const editor = createEditor(place.current, project.value.procedure, text.value, {
+        const editor = createEditor(place.current, opened || project.value.procedure, text.value, {
           onText: (next) => (text.value = next),
           onSave: () => void save(),
         });
@@ -31,12 +35,12 @@ export function EditorPane() {
       gone = true;
       ends.forEach((end) => end());
     };
-  }, []);
+  }, [opened]);
   const state = dirty.value ? "not saved" : procedure.value.state === "broken" ? "broken" : "";
   return (
     <section class="editor" tabIndex={-1} data-keeps-keys>
       <header>
-        <h2 class="mono">{base.value?.path ?? project.value.procedure}</h2>
+        <FileChoice />
         <span class={state === "broken" ? "bad" : "warn"}>{state}</span>
         <Button disabled={!dirty.value} onClick={() => base.value && giveUp(base.value)}>
           Discard
@@ -69,8 +73,29 @@ export function EditorPane() {
       <div class="code" key="code" ref={place}>
         {!loaded.value && <p class="soft">Loading the editor…</p>}
       </div>
-      <footer class="soft">What is saved here is run on this machine, with your rights.</footer>
+      <footer class="soft" tabIndex={-1}>
+        What is saved here is run on this machine, with your rights. Esc, then Tab, leads out of the text.
+      </footer>
     </section>
+  );
+}
+
+/** The name of the file; where there are several, they are to choose from. */
+function FileChoice() {
+  const name = file.value || project.value.procedure;
+  const all = files.value.includes(name) ? files.value : [name, ...files.value];
+  if (all.length < 2) return <h2 class="mono">{name}</h2>;
+  return (
+    <h2 class="mono">
+      <Select
+        label="File"
+        hidden
+        title="Text files in the procedure's folder"
+        options={all.map((value) => ({ value, label: value }))}
+        value={name}
+        onChange={(value) => void openFile(value)}
+      />
+    </h2>
   );
 }
 

@@ -32,10 +32,11 @@ export function mark(a: Slug, b: Slug, same: boolean | null): void {
   requests.mark({ a, b, same }).catch(complain);
 }
 
-/** Say that the procedure was written, with the way back beside it. */
-export function written(what: string, { digest, revision }: Replaced): void {
-  if (revision === null) return tell("The procedure has this text already.");
-  tell(what, { label: "Undo", run: () => void requests.undo(revision, digest).catch(complain) });
+/** Say that the procedure, or another file, was written, with the way back beside it. after: that way was gone. */
+export function written(what: string, { digest, revision }: Replaced, file = "", after = () => {}): void {
+  if (revision === null) return tell(`${file || "The procedure"} has this text already.`);
+  const undo = () => requests.undo(revision, digest, file).then(after).catch(complain);
+  tell(what, { label: "Undo", run: () => void undo() });
 }
 
 export async function copy(text: string, what: string): Promise<void> {

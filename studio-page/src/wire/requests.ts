@@ -70,6 +70,8 @@ async function send<T>(method: "POST" | "PUT" | "PATCH", path: string, body: unk
 }
 
 const id = encodeURIComponent;
+/** Which text file is meant: empty for the procedure. */
+const of = (file: string) => (file ? `?file=${id(file)}` : "");
 
 export const requests = {
   reference: (slug: Slug) => get<Reference>(`/api/references/${id(slug)}`),
@@ -86,12 +88,15 @@ export const requests = {
   map: () => get<CollectionMap>("/api/map"),
   steps: (slug: Slug) => get<Step[]>(`/api/references/${id(slug)}/steps`),
   alike: (slug: Slug) => get<Record<Slug, number>>(`/api/references/${id(slug)}/alike`),
-  source: () => get<Source>("/api/source"),
-  saveSource: (text: string, digest: string | null) => send<Replaced>("PUT", "/api/source", { text, digest }),
+  texts: () => get<string[]>("/api/texts"),
+  source: (file: string) => get<Source>(`/api/source${of(file)}`),
+  saveSource: (file: string, text: string, digest: string | null) =>
+    send<Replaced>("PUT", `/api/source${of(file)}`, { text, digest }),
   saveCopy: (text: string) => send<Copied>("POST", "/api/source/copy", { text }),
-  revisions: () => get<Revision[]>("/api/revisions"),
-  revision: (number: number) => get<RevisionDetail>(`/api/revisions/${number}`),
-  undo: (number: number, digest: string | null) => send<Replaced>("POST", `/api/revisions/${number}/undo`, { digest }),
+  revisions: (file = "") => get<Revision[]>(`/api/revisions${of(file)}`),
+  revision: (number: number, file = "") => get<RevisionDetail>(`/api/revisions/${number}${of(file)}`),
+  undo: (number: number, digest: string | null, file = "") =>
+    send<Replaced>("POST", `/api/revisions/${number}/undo${of(file)}`, { digest }),
   fit: (fresh: boolean) => send("POST", "/api/fit", { fresh }),
   explain: () => send("POST", "/api/explain", {}),
   export: (order: ExportOrder) => send("POST", "/api/export", order),

@@ -79,6 +79,10 @@ def test_settings_that_cannot_be_are_refused_and_nothing_is_left(running: Studio
     [
         ("PUT", "/api/source", b'{"text": "\\ud800", "digest": null}'),
         ("PUT", "/api/source", b'{"text": 1}'),
+        ("PUT", "/api/source?file=helpers.py", b'{"text": 1}'),
+        ("PUT", "/api/source?file=new.py", b'{"text": "\\ud800", "digest": null}'),
+        ("PATCH", "/api/settings", b'{"scale": "rainbow"}'),
+        ("PATCH", "/api/settings", b'{"scale": null}'),
         ("PUT", "/api/source", b'{"text": null}'),
         ("PUT", "/api/source", b'{"text": "x", "digest": 7}'),
         ("PUT", "/api/source", b'{"digest": null}'),

@@ -348,3 +348,71 @@ def test_which_names_a_server_has(host: str, named: str | None, allowed: bool) -
 def test_tokens_differ_and_are_not_shown() -> None:
     one, other = Access("127.0.0.1", 80), Access("127.0.0.1", 80)
     assert one.token != other.token and len(one.token) > 40 and one.token not in repr(one)
+
+
+NOWHERE = {
+    "up": "../secret.py",
+    "encoded up": "..%2Fsecret.py",
+    "twice encoded": "..%252Fsecret.py",
+    "absolute": "/etc/hosts.txt",
+    "below": "references/notes.txt",
+    "the studio's own": ".shapewright/settings.json",
+    "hidden": ".hidden.py",
+    "marks": "marks.json",
+    "a link out": "linked.py",
+    "a link that leads nowhere": "dangling.py",
+    "a folder": "folder.py",
+    "no text": "shape.ply",
+    "no suffix": "Makefile",
+    "a zero": "a%00.py",
+    "a line": "a%0Ab.py",
+    "a stream of Windows": "a.py::$DATA",
+    "a backslash": "..\\secret.py",
+    "nothing": "%20",
+    "a surrogate": "%ED%A0%80.py",
+    "too long": "a" * 300 + ".py",
+}
+
+
+@pytest.mark.parametrize("method", ["GET", "PUT"])
+@pytest.mark.parametrize("name", NOWHERE.values(), ids=NOWHERE)
+def test_no_other_file_is_read_or_written_by_the_editor(running: Studio, name: str, method: str) -> None:
+    folder = running.folder
+    secret = folder.parent / "secret.py"
+    for path in (folder / ".hidden.py", folder / "references" / "notes.txt"):
+        path.write_text("secret")
+    (folder / "folder.py").mkdir(exist_ok=True)
+    for link, to in (("linked.py", secret), ("dangling.py", folder.parent / "nowhere.py")):
+        if not (folder / link).is_symlink():
+            (folder / link).symlink_to(to)
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file() and "cache" not in path.parts}
+    body = {"text": "x = 1", "digest": None} if method == "PUT" else None
+    status, answer, _ = running.request(method, f"/api/source?file={name}", body)
+    assert status == 404 and b'"secret"' not in answer, answer
+    after = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file() and "cache" not in path.parts}
+    assert after == before and secret.read_text() == "secret" and not (folder.parent / "nowhere.py").exists()
+    for link in ("linked.py", "dangling.py", ".hidden.py"):
+        (folder / link).unlink()
+    (folder / "folder.py").rmdir()
+
+
+def test_files_beside_the_procedure_have_the_safety_rules_of_the_procedure(running: Studio) -> None:
+    (running.folder / "sizes.json").write_text("1")
+    source = running.get("/api/source?file=sizes.json")
+    assert source["text"] == "1"
+    (running.folder / "sizes.json").write_text("2")
+    running.send("PUT", "/api/source?file=sizes.json", {"text": "3", "digest": source["digest"]}, 409)
+    assert (running.folder / "sizes.json").read_text() == "2"
+    foreign = {**running.headers, "Origin": "http://evil.example"}
+    order = {"text": "4", "digest": None}
+    assert running.request("PUT", "/api/source?file=sizes.json", order, foreign)[0] == 403
+    home = running.folder / ".shapewright" / "revisions"
+    home.mkdir(parents=True, exist_ok=True)
+    (home / "sizes.json").symlink_to(running.folder.parent)
+    refused = running.send("PUT", "/api/source?file=sizes.json", order, 409)
+    assert "a link; remove it" in refused["error"]
+    (home / "sizes.json").unlink()
+    revision = running.send("PUT", "/api/source?file=sizes.json", order)["revision"]
+    assert running.get(f"/api/revisions/{revision}?file=sizes.json")["revision"]["writer"] == "editor"
+    assert running.request("GET", f"/api/revisions/{revision}")[0] == 404
+    (running.folder / "sizes.json").unlink()

@@ -7,7 +7,7 @@ import json
 import re
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,14 @@ SCRATCH = ".shapewright"
 _NAMES = (re.compile(rb"[<\"']([^<>\"'\n\0]+)[>\"']"), re.compile(rb"[^\s<>\"'(){}\[\],;=\0]+\.\w+"))
 """What may be the path of a file in a text: what stands in quotes or between < and >, or a word with a suffix."""
 _REVISIONS, _SETTINGS = "revisions", "settings.json"
+TEXTS = frozenset(
+    [".py", ".scad", ".json", ".toml", ".yaml", ".yml", ".csv", ".txt", ".md", ".js", ".ts", ".cfg", ".ini"]
+)
+"""Suffixes of the files that the page's editor opens."""
+MOST_TEXT = 2**19
+"""Bytes of such a file: half of what a request may have, since JSON takes more room."""
+_NEW = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,80}")
+_OWN = frozenset(["marks.json"])  # what the studio writes itself
 _LOOKED_AT = 1024  # bytes that tell a text from a binary file
 _START = "shapewright new NAME makes one, and shapewright demo one with forty tables"
 
@@ -58,6 +66,7 @@ class Project:
     folder: Path  # absolute, links resolved
     procedure: Path  # the author's file, inside it
     origin: Origin  # where the references are
+    undo: str = ""  # folder of the undo list, inside that of the procedure's
 
     @classmethod
     def of(
@@ -87,6 +96,37 @@ class Project:
         else:
             origin = Origin(str(Path(references).expanduser().absolute()), up, front, keep=keep)
         return cls(home, path, origin)
+
+    @property
+    def texts(self) -> list[str]:
+        """Names of the text files in the procedure's folder, the procedure first: what the page's editor may open."""
+        home = self.procedure.parent
+        others = (path.name for path in home.iterdir() if path != self.procedure and self._is_text(path))
+        return [self.procedure.name, *sorted(others)]
+
+    def _is_text(self, path: Path) -> bool:
+        try:
+            inside = path.resolve().is_relative_to(self.folder)
+            small = inside and path.is_file() and path.stat().st_size <= MOST_TEXT
+        except OSError:
+            return False
+        return small and path.suffix.lower() in TEXTS and not path.name.startswith(".") and path.name not in _OWN
+
+    def of_text(self, name: str | None) -> Project:
+        """The same with another text file in the procedure's place, which has an undo list of its own.
+
+        Raises Missing for a name that is not among ``texts``, and could not be that of a new one.
+        """
+        if name is None or name == self.procedure.name:
+            return self
+        if name not in self.texts and not self._may_be_new(name):
+            raise Missing(f"there is no text file {name!r} beside {self.procedure.name}")
+        return replace(self, procedure=self.procedure.parent / name, undo=name)
+
+    def _may_be_new(self, name: str) -> bool:
+        path = self.procedure.parent / name
+        free = _NEW.fullmatch(name) is not None and not path.exists() and not path.is_symlink()
+        return free and path.suffix.lower() in TEXTS and name not in _OWN
 
     @property
     def runs(self) -> list[Path]:
@@ -165,7 +205,8 @@ class Project:
     @property
     def revisions(self) -> Revisions:
         """All writes of the procedure."""
-        return Revisions(self.folder / SCRATCH / _REVISIONS, lambda: self.scratch(_REVISIONS))
+        inside = Path(_REVISIONS, self.undo)
+        return Revisions(self.folder / SCRATCH / inside, lambda: self.scratch(inside.as_posix()))
 
     def seen(self, last: str | None, now: str) -> None:
         """Put into the undo list what another program has written. last: the text that was there before, if known."""
@@ -186,7 +227,8 @@ class Project:
     def scratch(self, inside: str = "") -> Path:
         """The folder for what the studio keeps, or one inside it; git passes over it. Raises ProjectError for links."""
         folder = self.folder / SCRATCH
-        for part in (folder, folder / inside):
+        parts = Path(inside).parts
+        for part in (folder.joinpath(*parts[:depth]) for depth in range(len(parts) + 1)):
             if part.is_symlink():
                 raise ProjectError(f"{part}: a link; remove it")
             part.mkdir(exist_ok=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 from collections.abc import Callable
 from functools import partial
@@ -24,7 +25,7 @@ from shapewright.studio.session.session import Session
 from shapewright.studio.wire import requests
 from shapewright.studio.wire.changes import ChosenSettings
 from shapewright.studio.wire.detail import About
-from shapewright.studio.wire.revisions import RevisionDetail, ToldAnswer, Writer
+from shapewright.studio.wire.revisions import Revision, RevisionDetail, ToldAnswer, Writer
 from shapewright.studio.wire.values import Slug, encode
 from shapewright.studio.wire.work import Comparison
 
@@ -51,10 +52,11 @@ def routes(session: Session) -> list[Route]:
         api("references/{slug}/shape", partial(_shape, session)),
         api("references/{slug}/render", partial(_render, session)),
         api("procedure/render", partial(_render, session)),
-        api("source", lambda _: _source(project)),
-        api("source", lambda _, edit: _replaced(project, edit.text, edit.digest, "editor"), "PUT", requests.SourceEdit),
+        api("texts", lambda _: project.texts),
+        api("source", lambda request: _source(_text(project, request))),
+        api("source", partial(_save, project), "PUT", requests.SourceEdit),
         api("source/copy", lambda _, order: _copied(project, order.text), "POST", requests.CopyOrder),
-        api("revisions", lambda _: project.revisions.all()),
+        api("revisions", lambda request: _revisions(_text(project, request))),
         api("revisions/{number:int}", partial(_revision, project)),
         api("revisions/{number:int}/undo", partial(_undo, project), "POST", requests.RestoreOrder),
         api("fit", lambda _, order: session.fit(order.fresh), "POST", requests.FitOrder),
@@ -149,6 +151,15 @@ def _slug(session: Session, request: Request) -> Slug:
     return slug
 
 
+def _text(project: Project, request: Request) -> Project:
+    """The project, or with the text file in the procedure's place that the query names. Raises Missing."""
+    return project.of_text(request.query_params.get("file"))
+
+
+def _save(project: Project, request: Request, edit: requests.SourceEdit) -> requests.Replaced:
+    return _replaced(_text(project, request), edit.text, edit.digest, "editor")
+
+
 def _source(project: Project) -> requests.Source:
     try:
         text, digest = project.read_source()
@@ -157,15 +168,22 @@ def _source(project: Project) -> requests.Source:
     return requests.Source(path=project.procedure.name, text=text, digest=digest)
 
 
+def _revisions(text: Project) -> list[Revision]:
+    if text.undo:  # nobody watches this file: what another program wrote is noticed now
+        with contextlib.suppress(ProjectError):
+            text.seen(None, text.read_source()[0])
+    return text.revisions.all()
+
+
 def _revision(project: Project, request: Request) -> RevisionDetail:
     try:
-        return project.revisions.detail(request.path_params["number"])
+        return _text(project, request).revisions.detail(request.path_params["number"])
     except KeyError as error:
         raise _NO_REVISION from error
 
 
 def _undo(project: Project, request: Request, order: requests.RestoreOrder) -> requests.Replaced:
-    number = request.path_params["number"]
+    number, project = request.path_params["number"], _text(project, request)
     try:
         before, _ = project.revisions.texts(number)
     except KeyError as error:
