@@ -24,6 +24,7 @@ from shapewright.comparison.gaps import Surface
 from shapewright.procedures import load_procedure
 from shapewright.references import Collection
 from shapewright.settings import Settings
+from shapewright.studio.project.watch import fingerprint
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.wire.answers import parse
 from studio_client import PROCEDURE, Studio, ready, studio
@@ -383,17 +384,17 @@ def test_version_that_fails_for_every_shape_keeps_what_was_there(mended: Studio)
 
 def test_only_files_that_the_procedure_names_are_its_sources(mended: Studio) -> None:
     project = Project.of(mended.folder)
-    before = project.fingerprint()
+    before = fingerprint(project)
     (mended.folder / "unrelated.py").write_text("x = 1")
-    assert project.fingerprint() == before
+    assert fingerprint(project) == before
     mended.edit("import helper_of_helper as h\n" + PROCEDURE, "broken")
-    named = project.fingerprint()
+    named = fingerprint(project)
     (mended.folder / "helper_of_helper.py").write_text("import third")
     (mended.folder / "third.py").write_text("")
     mended.wait_for(lambda s: s["procedure"]["state"] == "good")
-    whole = project.fingerprint()
+    whole = fingerprint(project)
     (mended.folder / "third.py").write_text("y = 2")
-    assert len({before, named, whole, project.fingerprint()}) == 4
+    assert len({before, named, whole, fingerprint(project)}) == 4
 
 
 def test_endless_loop_costs_a_message_with_its_line(mended: Studio) -> None:

@@ -3,6 +3,7 @@
 import pytest
 
 from broken_disk import full_after, hidden, killed, shown
+from shapewright.studio.project.watch import fingerprint
 from shapewright.studio.project.workspace import SCRATCH, Project, ProjectError
 
 
@@ -76,15 +77,15 @@ def scad(tmp_path):
 
 @pytest.mark.parametrize("name", ["box.scad", "lib/feet.scad", "lib/sizes.scad", "my logo.stl"])
 def test_a_change_of_what_a_procedure_that_is_no_python_uses_is_seen(scad, name):
-    before = scad.fingerprint()
+    before = fingerprint(scad)
     (scad.folder / name).write_bytes((scad.folder / name).read_bytes() + b"// more")
-    assert scad.fingerprint() != before
+    assert fingerprint(scad) != before
 
 
 def test_a_change_of_what_it_does_not_use_is_none(scad):
-    before = scad.fingerprint()
+    before = fingerprint(scad)
     (scad.folder / "other.scad").write_text("b = 2;\n")
-    assert scad.fingerprint() == before
+    assert fingerprint(scad) == before
 
 
 def test_copies_of_it_are_the_same_kind_of_file(scad):

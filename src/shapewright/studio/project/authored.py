@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from shapewright.studio.project.watch import fingerprint
 from shapewright.studio.project.workspace import Project
 from shapewright.studio.wire.collection import Parameter, Procedure
 from shapewright.studio.wire.values import Values, message_of
@@ -33,12 +34,12 @@ class Authored:
 
     def changed(self) -> bool:
         """Whether a Python file of the project is another than when it was read last."""
-        return self.project.fingerprint() != self._fingerprint
+        return fingerprint(self.project) != self._fingerprint
 
     def read(self, saved: bool) -> None:
         """Look at the file anew. Raises ProjectError when it cannot be read; the state is then ``broken``."""
         before = self._text
-        self._fingerprint = self.project.fingerprint()
+        self._fingerprint = fingerprint(self.project)
         self.load += 1
         self.state = "broken"
         self._text, self.digest = self.project.read_source()

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections import deque
+from collections.abc import Callable
 
 from shapewright.studio.wire.values import Slug
 from shapewright.studio.wire.work import Line, Speaker
 
 _LINES, _LETTERS = 1000, 2000
 """Lines that are kept, and letters of a line: a page shows as many without delay."""
+_GATHERED = 0.15
+"""Seconds for which lines are gathered into one message."""
 
 
 class Console:
-    """The lines, the oldest first; each has a number, one more than the one before."""
+    """The lines, the oldest first; each has a number, one more than the one before. told: gets those that are new."""
 
-    def __init__(self) -> None:
+    def __init__(self, told: Callable[[list[Line]], object] = lambda _: None) -> None:
+        self._told = told
+        self._telling: asyncio.TimerHandle | None = None
         self._lines: deque[Line] = deque(maxlen=_LINES)
         self._sent = 0
         self._count = 0
@@ -39,3 +45,12 @@ class Console:
         """The lines since this was asked last."""
         before, self._sent = self._sent, self._count
         return [line for line in self._lines if line.number > before]
+
+    def say(self, speaker: Speaker, text: str, slug: Slug | None = None) -> None:
+        """Add the lines of a text, and tell them soon: a sweep prints many times in a second."""
+        if self.add(speaker, slug, text) and self._telling is None:
+            self._telling = asyncio.get_running_loop().call_later(_GATHERED, self._tell)
+
+    def _tell(self) -> None:
+        self._telling = None
+        self._told(self.news())

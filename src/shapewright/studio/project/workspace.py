@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import re
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
-from shapewright.procedures import BINARY, is_foreign, source_digest, text_of
+from shapewright.procedures import BINARY, source_digest, text_of
 from shapewright.runs.folder import runs
 from shapewright.storage import remove_leftovers, write_file
 from shapewright.studio.project.listing import Origin
@@ -21,8 +19,6 @@ from shapewright.studio.wire.revisions import Writer
 
 SCRATCH = ".shapewright"
 """Folder of a project for what the studio keeps: every version of the procedure that was replaced, exports."""
-_NAMES = (re.compile(rb"[<\"']([^<>\"'\n\0]+)[>\"']"), re.compile(rb"[^\s<>\"'(){}\[\],;=\0]+\.\w+"))
-"""What may be the path of a file in a text: what stands in quotes or between < and >, or a word with a suffix."""
 _REVISIONS, _SETTINGS = "revisions", "settings.json"
 TEXTS = frozenset(
     [".py", ".scad", ".json", ".toml", ".yaml", ".yml", ".csv", ".txt", ".md", ".js", ".ts", ".cfg", ".ini"]
@@ -32,7 +28,6 @@ MOST_TEXT = 2**19
 """Bytes of such a file: half of what a request may have, since JSON takes more room."""
 _NEW = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,80}")
 _OWN = frozenset(["marks.json"])  # what the studio writes itself
-_LOOKED_AT = 1024  # bytes that tell a text from a binary file
 _START = "shapewright new NAME makes one, and shapewright demo one with forty tables"
 
 
@@ -250,43 +245,6 @@ class Project:
         if chosen != self.kept_settings():
             _write(self.scratch() / _SETTINGS, json.dumps(dict(chosen), indent=1) + "\n")
 
-    def fingerprint(self) -> str:
-        """Changes whenever the procedure does, or a file that it uses.
-
-        Those are the Python files beside it that it names, or that such a file names; of a procedure that is no Python
-        all files of its folder whose path there it names, and so on.
-        """
-        if is_foreign(self.procedure):
-            return _digest(self._named_files())
-        texts = {path.stem: _read_bytes(path) for path in self.procedure.parent.glob("*.py")}
-        used: set[str] = set()
-        news = {self.procedure.stem}
-        while news:
-            used |= news
-            words = {word for stem in news for word in re.findall(rb"\w+", texts.get(stem, b""))}
-            news = {stem for stem in texts if stem.encode() in words} - used
-        return _digest({stem: texts.get(stem, b"") for stem in used})
-
-    def _named_files(self) -> dict[str, bytes]:
-        """What a procedure that is no Python uses, itself included, by path."""
-        found: dict[str, bytes] = {}
-        news = {self.procedure}
-        while news:
-            found |= {str(path): _read_bytes(path) for path in news}
-            named = {
-                (path.parent / word.decode("utf-8", "replace")).resolve()
-                for path in news
-                if b"\0" not in found[str(path)][:_LOOKED_AT]
-                for word in chain.from_iterable(pattern.findall(found[str(path)]) for pattern in _NAMES)
-            }
-            inside = {path for path in named if path.is_relative_to(self.folder) and path.is_file()}
-            news = {path for path in inside if str(path) not in found}
-        return found
-
-
-def _digest(contents: Mapping[str, bytes]) -> str:
-    return hashlib.blake2b(repr(sorted(contents.items())).encode(), digest_size=8).hexdigest()
-
 
 def _write(path: Path, text: str) -> None:
     """Replace a file's text, whole or not at all; a link is followed."""
@@ -294,11 +252,3 @@ def _write(path: Path, text: str) -> None:
         write_file(path.resolve(), text)
     except OSError as error:
         raise ProjectError(f"{path}: cannot be written: {error.strerror or error}") from error
-
-
-def _read_bytes(path: Path) -> bytes:
-    """Empty for a file that is just being replaced, or that may not be read."""
-    try:
-        return path.read_bytes()
-    except OSError:
-        return b""

@@ -33,11 +33,9 @@ from shapewright.studio.wire import changes
 from shapewright.studio.wire.collection import Duplicate, Procedure
 from shapewright.studio.wire.problems import Problem
 from shapewright.studio.wire.values import Slug
-from shapewright.studio.wire.work import Job, Run, Speaker
+from shapewright.studio.wire.work import Job, Run
 from shapewright.versions import version_of
 
-_GATHERED = 0.15
-"""Seconds for which printed lines are gathered into one message."""
 _PATIENCE = 2.0
 """Seconds for which a fit after a save waits until the replicas of the new version are shown."""
 
@@ -50,8 +48,7 @@ class Session:
         self.pages = Pages()
         self.problems = ProblemList(self.pages)
         self.duplicates: list[Duplicate] = []
-        self.console = Console()
-        self._telling: asyncio.TimerHandle | None = None
+        self.console = Console(lambda lines: self.pages.publish(changes.LinesPrinted(lines=lines)))
         self.authored = Authored(project)
         self.display = Display(project, self.pages, cache_folder(), partial(self.problems.report, "shapes"))
         timings = Timings(project)
@@ -61,7 +58,7 @@ class Session:
         )
         self.choices = Choices(project, preferences, self.display, self.pages, self.problems, self._measure_anew)
         self.curation = Curation(project, self.display, self.bench, self.pages, self.problems, self.references_changed)
-        self.jobs = JobList(project, self.display, self.bench, self.pages, timings, self._job_ended, self._printed)
+        self.jobs = JobList(project, self.display, self.bench, self.pages, timings, self._job_ended, self.console.say)
 
     async def run(self) -> None:
         """Open the project, then serve until cancelled; ends all processes at the end."""
@@ -238,7 +235,7 @@ class Session:
                 if message.load in (None, self.authored.load):
                     self._break(message.problem)
             case messages.Printed():
-                self._printed("procedure", message.text, message.slug)
+                self.console.say("procedure", message.text, message.slug)
             case _:
                 self.display.take(message, payload)
                 self._count(message)
@@ -249,15 +246,6 @@ class Session:
                 self.sweeps.step(message.sweep, isinstance(message, messages.Measured))
             case messages.SweepEnded():
                 self.sweeps.end(message.sweep)
-
-    def _printed(self, speaker: Speaker, text: str, slug: Slug | None = None) -> None:
-        """Tell the pages soon: a sweep prints many times in a second."""
-        if self.console.add(speaker, slug, text) and self._telling is None:
-            self._telling = asyncio.get_running_loop().call_later(_GATHERED, self._tell_lines)
-
-    def _tell_lines(self) -> None:
-        self._telling = None
-        self.pages.publish(changes.LinesPrinted(lines=self.console.news()))
 
     def _take_version(self, loaded: messages.Loaded) -> None:
         """Show the new version: a run of it where there is one, else the replicas of before, carried over."""
