@@ -38,7 +38,9 @@ const badness = (tile: Tile): number => {
 const change = (tile: Tile): number | null => gain(collection.value.judge, tile.previous, value(tile));
 /** The reference itself comes first, and what was not looked at last. */
 const apart = ({ slug }: Tile): number => (slug === likeness.value?.slug ? -1 : (likeness.value?.apart[slug] ?? FAR));
-const byName = (a: Tile, b: Tile): number => a.name.localeCompare(b.name, undefined, { numeric: true });
+/** One for all: to make one for each comparison is what takes the time. */
+const NAMES = new Intl.Collator(undefined, { numeric: true });
+const byName = (a: Tile, b: Tile): number => NAMES.compare(a.name, b.name);
 
 const ORDERS: Record<Exclude<Sort, "groups">, (a: Tile, b: Tile) => number> = {
   worst: (a, b) => badness(b) - badness(a) || byName(a, b),
