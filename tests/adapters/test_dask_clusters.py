@@ -183,7 +183,10 @@ def references(plank):
 
 
 def found(iteration):
-    return [(r.parameters, r.grade, r.group, r.measured, r.replica.vertices.tobytes()) for r in iteration]
+    return [
+        (r.parameters, r.grade, r.group, repr(r.measured), r.replica and r.replica.vertices.tobytes())
+        for r in iteration
+    ]
 
 
 def said(explanation):
