@@ -267,7 +267,9 @@ def test_a_million_triangles_are_drawn_by_fewer_and_measured_exactly(visit: Visi
 
 def test_a_large_reference_is_answered_while_the_bench_is_busy(server: Studio) -> None:
     server.wait_for(lambda s: ready(s) and all(tile["reference"] for tile in s["collection"]["tiles"]), 120)
-    kept = [*(server.folder / "cache").rglob("*.mesh")]
+    home = server.folder / "cache"
+    server.wait_for(lambda _: any(home.rglob("*.mesh")))  # it is written after the picture was told of
+    kept = [*home.rglob("*.mesh")]
     assert len(kept) == 1, "the million triangles are kept, the box is not"
     status, body, _ = server.request("GET", "/api/references/million/shape")
     assert (status, body) == (200, kept[0].read_bytes())
