@@ -1,5 +1,6 @@
 /** Before an explanation: what there is to explain, group after group. */
 
+import { tintOf } from "../state/scale";
 import { inspect } from "../state/route";
 import { collection, tiles } from "../state/studio";
 import { plural } from "../ui/numbers";
@@ -33,7 +34,7 @@ export function Misfits() {
                 <Picture url={tiles.value.get(slug)?.reference ?? null} tint={null} alt="reference" />
                 <Picture
                   url={tiles.value.get(slug)?.replica ?? null}
-                  tint={tiles.value.get(slug)?.colour ?? null}
+                  tint={tintOf(tiles.value.get(slug))}
                   alt="replica"
                 />
               </button>

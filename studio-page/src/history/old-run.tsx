@@ -1,6 +1,7 @@
 /** A run as it was, to look at: its replicas, parameters, procedure and settings. Nothing here can be changed. */
 
 import { useSignal, useSignalEffect } from "@preact/signals";
+import { tintOf } from "../state/scale";
 import { valueOf } from "../state/grades";
 import { useKeys } from "../state/keys";
 import { complain } from "../state/notices";
@@ -106,7 +107,7 @@ function Whole({ detail }: { detail: RunDetail }) {
               aria-label={`${tile.name}: ${tile.grade}`}
             >
               <Picture url={tile.reference} tint={null} alt="reference" />
-              <Picture url={tile.replica} tint={tile.colour} alt="replica" />
+              <Picture url={tile.replica} tint={tintOf(tile)} alt="replica" />
             </a>
             <footer>
               <span class="name">{tile.name}</span>
@@ -140,7 +141,7 @@ function Pair({ tile, detail }: { tile: Tile; detail: RunDetail }) {
           <figcaption class="soft">Reference</figcaption>
         </figure>
         <figure>
-          <Picture url={tile.replica} tint={tile.colour} alt="replica" />
+          <Picture url={tile.replica} tint={tintOf(tile)} alt="replica" />
           <figcaption>
             <Value tile={tile} detail={detail} /> {tile.grade}
             {tile.problem && <span class="bad"> {tile.problem.message}</span>}

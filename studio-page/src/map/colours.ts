@@ -2,6 +2,7 @@
 
 import { notedOf } from "../curating/actions";
 import { share } from "../parameters/brushes";
+import { colourOfGrade } from "../state/scale";
 import { procedure } from "../state/studio";
 import { shown, words } from "../ui/numbers";
 import { partColour } from "../viewer/paint";
@@ -11,14 +12,14 @@ export type Colouring = "grade" | "fidelity" | `tag ${string}` | `parameter ${st
 type Found = { parameters: Values; active: string[] } | undefined;
 
 const UNKNOWN = "var(--line-strong)";
-const GRADES = { replicated: "var(--good)", close: "var(--warn)", different: "var(--bad)" } as const;
+const GRADES = ["replicated", "close", "different"] as const;
 
 /** From pale to strong: its lightness goes one way only, in either theme. */
 const ramp = (at: number): string =>
   `color-mix(in oklab, var(--accent) ${Math.round(100 * Math.min(1, Math.max(0, at)))}%, var(--line-strong))`;
 
 export function colourOf(colouring: Colouring, tile: Tile, found: Found): string {
-  if (colouring === "grade") return tile.distance === null ? UNKNOWN : GRADES[tile.grade];
+  if (colouring === "grade") return tile.distance === null ? UNKNOWN : colourOfGrade(tile.grade);
   if (colouring === "fidelity") return tile.fidelity === null ? UNKNOWN : ramp(tile.fidelity);
   if (colouring.startsWith("tag "))
     return notedOf(tile.slug).tags.includes(colouring.slice(4)) ? "var(--accent)" : UNKNOWN;
@@ -31,7 +32,7 @@ export function colourOf(colouring: Colouring, tile: Tile, found: Found): string
 }
 
 export function legendOf(colouring: Colouring): { fill: string; label: string }[] {
-  if (colouring === "grade") return Object.entries(GRADES).map(([label, fill]) => ({ fill, label }));
+  if (colouring === "grade") return GRADES.map((label) => ({ fill: colourOfGrade(label), label }));
   if (colouring === "fidelity") return [0, 0.5, 1].map((at) => ({ fill: ramp(at), label: `fidelity ${at}` }));
   if (colouring.startsWith("tag ")) {
     return [

@@ -5,6 +5,7 @@ import { useEffect } from "preact/hooks";
 import { select, selected } from "../curating/selection";
 import { change as explore } from "../explore/shapes";
 import { table, watchTable } from "../parameters/table";
+import { tintOf } from "../state/scale";
 import { complain } from "../state/notices";
 import { go, inspect } from "../state/route";
 import { collection, duplicates, procedure, tags, tiles } from "../state/studio";
@@ -166,7 +167,7 @@ function Under({ of }: { of: { slug: Slug } | { sample: MappedSample } | null })
       <b>{tile.name}</b>
       <div class="pair">
         <Picture url={tile.reference} tint={null} alt="reference" />
-        <Picture url={tile.replica} tint={tile.colour} alt="replica" dim={tile.stale} />
+        <Picture url={tile.replica} tint={tintOf(tile)} alt="replica" dim={tile.stale} />
       </div>
       <Button onClick={() => inspect(tile.slug)}>Open</Button>
     </>

@@ -1,6 +1,7 @@
 /** Parallel coordinates: a line for each reference through all parameters; a drag on an axis brushes. */
 
 import { useSignal } from "@preact/signals";
+import { colourOfGrade } from "../state/scale";
 import { collection, tiles } from "../state/studio";
 import { shown, words } from "../ui/numbers";
 import type { Grade, ParameterRow } from "../wire/messages";
@@ -15,6 +16,8 @@ const MOST_GAP = 210;
 const TOP = 22;
 const SIDE = 56;
 const GRADES: readonly (Grade | "none")[] = ["none", "different", "close", "replicated"];
+
+const strokeOf = (grade: Grade | "none") => (grade === "none" ? undefined : { stroke: colourOfGrade(grade) });
 
 export function Parallel() {
   const all = spreads.value;
@@ -54,7 +57,7 @@ export function Parallel() {
         aria-label="A line for each reference through all parameters. The bars above select the same by keyboard."
       >
         {GRADES.map((grade) => (
-          <path key={grade} class={grade} d={lines.get(grade)} />
+          <path key={grade} style={strokeOf(grade)} d={lines.get(grade)} />
         ))}
         <path class="chosen" d={chosen} />
         {all.map((spread, i) => {

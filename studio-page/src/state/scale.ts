@@ -22,6 +22,12 @@ export function tintOf(one: Coloured | undefined): string | null {
   return judge === "paper" && one.distance !== null ? ofDistance(one.distance, threshold, FAR) : ofGrade(one.grade);
 }
 
+const PAPER: Record<Grade, string> = { replicated: "var(--good)", close: "var(--warn)", different: "var(--bad)" };
+
+/** The colour of a grade, where it stands for a replica on a map or a line. */
+export const colourOfGrade = (grade: Grade): string =>
+  settings.value?.scale === "paper" ? PAPER[grade] : ofGrade(grade);
+
 effect(() => {
   document.documentElement.dataset.scale = settings.value?.scale ?? "clear";
 });
