@@ -59,7 +59,7 @@ def test_a_fit_that_was_cancelled_goes_on(tmp_path, monkeypatch):
     kept = {path.name for path in (tmp_path / "runs" / unfinished.UNFINISHED).glob("*/*")}
     assert {"network0", "search0-000000-000003"} <= kept
     result = fit_job.fit(request, second)
-    assert [event.notice.kind for event in second.heard if event.notice] == ["going on"]
+    assert "going on" in [event.notice.kind for event in second.heard if event.notice]
     assert any(event.stage == "train" and event.losses for event in first.heard)
     assert not any(event.losses for event in second.heard)
     assert len(Iteration.load(tmp_path / "runs" / result.run)) == 3
