@@ -80,6 +80,8 @@ def test_from_an_empty_project_to_the_first_fit(empty: Studio, browser: Any, tmp
     page.wait_for_selector(".welcome", state="detached")
     empty.wait_for(lambda s: s["jobs"]["fit"]["state"] == "done", 240)
     page.wait_for_selector(".next")
+    visit.go("history")
+    page.wait_for_selector(".run-source code:has-text('def table(')")
     visit.end()
 
 

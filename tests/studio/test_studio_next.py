@@ -102,6 +102,10 @@ def test_one_bar_says_in_every_view_how_long_work_takes_still(mended: Studio, br
         visit.go(view)
         page.wait_for_selector("[data-working=fit] [data-left]")
         assert page.locator(".progress-line[role=progressbar] i").bounding_box()["height"] >= 2
+    page.set_viewport_size({"width": 400, "height": 800})
+    shown = page.locator("[data-working=fit] [data-left]").bounding_box()
+    assert shown["width"] > 40 and shown["x"] + shown["width"] <= 400
+    page.set_viewport_size({"width": 1360, "height": 860})
     page.evaluate("location.hash = 'inspect/table-1'")
     page.wait_for_selector(".inspector h2[title='table-1']")
     page.wait_for_selector("[data-working=fit]")

@@ -1,6 +1,6 @@
 /** Where the time of a run went, and what it was fitted with. */
 
-import { signal, useSignal, useSignalEffect } from "@preact/signals";
+import { signal, useSignalEffect } from "@preact/signals";
 import { runs } from "../state/studio";
 import { duration, shown, words } from "../ui/numbers";
 import type { RunDetail, Value } from "../wire/messages";
@@ -11,8 +11,23 @@ export const watched = signal("");
 
 const TOLD = ["samples", "epochs", "refine", "rounds", "facing", "judge", "seed"];
 
+const detail = signal<RunDetail | null>(null);
+
+/** The procedure of the run: while there is no other to compare it with. */
+export function RunSource() {
+  const found = detail.value;
+  if (!found?.source) return null;
+  return (
+    <section class="run-source">
+      <h2>The procedure of run {found.run.run}</h2>
+      <pre tabIndex={0} aria-label={`The procedure of run ${found.run.run}`}>
+        <code>{found.source}</code>
+      </pre>
+    </section>
+  );
+}
+
 export function RunTimes() {
-  const detail = useSignal<RunDetail | null>(null);
   useSignalEffect(() => {
     const run = watched.value;
     if (runs.value.some((one) => one.run === run))

@@ -16,7 +16,7 @@ import { Diff } from "./diff";
 import { Moves } from "./moves";
 import { OldRun } from "./old-run";
 import { Revisions } from "./revisions";
-import { RunTimes, watched } from "./times";
+import { RunSource, RunTimes, watched } from "./times";
 
 export function HistoryView() {
   const { rest } = route.value;
@@ -77,11 +77,14 @@ function Iterations() {
         </div>
       </section>
       {before === after ? (
-        <p class="soft">
-          {runs.value.length === 1
-            ? "With the next iteration, the two can be compared here."
-            : "Choose two iterations to compare."}
-        </p>
+        <>
+          <p class="soft">
+            {runs.value.length === 1
+              ? "With the next iteration, the two can be compared here."
+              : "Choose two iterations to compare."}
+          </p>
+          <RunSource />
+        </>
       ) : comparison.value ? (
         <div class="compared">
           <Moves comparison={comparison.value} />
