@@ -81,7 +81,7 @@ class Visit:
     def end(self) -> None:
         """Close the page. Fails when anything was wrong with it."""
         self.page.context.close()
-        assert self.trouble == []
+        assert self.trouble == [], str(self.trouble)[:600]
 
     def go(self, view: str) -> None:
         self.page.click(f"nav a[href='#{view}']")

@@ -123,7 +123,7 @@ def test_an_author_sees_what_was_found_and_says_otherwise(running: Studio) -> No
         assert visit.text(".told select[aria-label='Front'] option:first-child") == "as found: z"
         page.select_option(".told select[aria-label='Front']", "x")
         running.wait_for(lambda s: drawn(s) and axes(s)["b"] == Orientation("y", "x"))
-        assert running.get("/api/references/b")["told"] == {"up": "y", "front": "x", "split": None}
+        assert running.get("/api/references/b")["told"] == {"up": "y", "front": "x", "split": None, "unit": None}
         page.evaluate("location.hash = 'collection'")
         visit.until("document.querySelector('[data-axes]')?.innerText.includes('y up, x front in 1, as you say')")
         page.evaluate("location.hash = 'inspect/b'")

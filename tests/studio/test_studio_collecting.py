@@ -168,7 +168,7 @@ def test_duplicates_are_shown_and_the_most_alike_come_first(visit: Visit) -> Non
     page = visit.page
     by_name(visit)
     assert page.locator("[data-duplicate]").count() == 1
-    assert page.inner_text("[data-duplicate=middle]") == "= middle"
+    assert page.text_content("[data-duplicate=middle]") == "= middle"
     page.click(".toolbar [role=radio]:has-text('Duplicates')")
     visit.until(f"{SHOWN}.join() === 'middle,twin'")
     page.click(".toolbar [role=radio]:has-text('All')")

@@ -101,7 +101,7 @@ def test_one_bar_says_in_every_view_how_long_work_takes_still(mended: Studio, br
     for view in ("loop", "history", "feedback", "collection"):
         visit.go(view)
         page.wait_for_selector("[data-working=fit] [data-left]")
-        assert page.locator(".progress-line[role=progressbar] i").bounding_box()["height"] >= 2
+        assert page.locator(".progress-line [role=progressbar] i").bounding_box()["height"] >= 2
     page.set_viewport_size({"width": 400, "height": 800})
     shown = page.locator("[data-working=fit] [data-left]").bounding_box()
     assert shown["width"] > 40 and shown["x"] + shown["width"] <= 400

@@ -15,7 +15,7 @@ from PIL import Image
 from studio_client import PROCEDURE, Studio, ready, studio
 
 FIT = ("--samples", "60", "--epochs", "1", "--refine", "off", "--workers", "1", "--no-auto-fit")
-APART = {"up": None, "front": None, "split": "apart"}
+APART = {"up": None, "front": None, "split": "apart", "unit": None}
 PARTS = ["room/box", "room/can"]
 
 

@@ -70,15 +70,16 @@ export function ProgressLine() {
   if (!first) return <div class="progress-line" />;
   const percent = Math.min(100, 100 * first.share);
   return (
-    <div
-      class="progress-line"
-      role="progressbar"
-      aria-label={WHAT[first.what]}
-      aria-valuemin={0}
-      aria-valuemax={100}
-      aria-valuenow={Math.round(percent)}
-    >
-      <i style={{ width: `${percent.toFixed(1)}%` }} />
-    </div>
+    <section class="progress-line" aria-label="Progress">
+      <div
+        role="progressbar"
+        aria-label={WHAT[first.what]}
+        aria-valuemin={0}
+        aria-valuemax={100}
+        aria-valuenow={Math.round(percent)}
+      >
+        <i style={{ width: `${percent.toFixed(1)}%` }} />
+      </div>
+    </section>
   );
 }

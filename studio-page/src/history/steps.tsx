@@ -2,6 +2,7 @@
 
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { tintOf } from "../state/scale";
 import { complain } from "../state/notices";
 import { collection, runs, tileOf } from "../state/studio";
 import { fixed, moment } from "../ui/numbers";
@@ -47,7 +48,7 @@ export function Steps({ slug, at = null }: { slug: Slug; at?: string | null }) {
                 title={`Run ${step.run}, ${moment(step.created)}, version ${versions.get(step.procedure)}: ${what}`}
                 aria-label={`Run ${step.run}: ${what}`}
               >
-                <Picture url={step.replica} tint={step.colour} alt="" />
+                <Picture url={step.replica} tint={tintOf(step)} alt="" />
                 <span class="value">
                   {step.run}
                   <GradeMark grade={value === null ? null : step.grade} />

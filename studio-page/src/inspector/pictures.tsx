@@ -15,9 +15,8 @@ export function Pictures() {
   const drawn = useSignal<{ open: string; url: string; of: string } | null>(null);
   useSignalEffect(() => {
     // A picture is asked for when the replica of these parameters was built, so at most one is under way.
-    void replica.value;
     const open = slug.value;
-    if (!open) return;
+    if (!open || !replica.value) return;
     const of = { parameters: edited.value, beyond: beyond() };
     const url = replicaUrl(open, { azimuth: azimuth.value, elevation: ELEVATION }, of);
     let wanted = true;

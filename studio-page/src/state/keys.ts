@@ -1,7 +1,7 @@
 /** Keys of the views that are shown, for acting on them and for the help that lists them. */
 
 import { signal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 
 export interface Key {
   /** As KeyboardEvent.key gives them; the first is the one that the help names. */
@@ -33,7 +33,8 @@ export function switchSingleKeys(on: boolean): void {
 export function useKeys(place: string, keys: Key[]): void {
   const newest = useRef(keys);
   newest.current = keys;
-  useEffect(() => {
+  // Before anything is painted: who sees a view can use its keys.
+  useLayoutEffect(() => {
     // The map is registered once; what its keys do is always the newest.
     const map: KeyMap = {
       place,

@@ -34,7 +34,7 @@ export function inspect(slug: Slug): void {
 function read(): Route {
   const [head = "", ...tail] = location.hash.slice(1).split("/");
   const rest = tail.join("/") || null;
-  if (head === "inspect" && rest) return { view: "collection", slug: decoded(rest), rest: null };
+  if (head === "inspect" && tail[0]) return { view: "collection", slug: decoded(tail[0]), rest: null };
   return { view: VIEWS.find((view) => view === head) ?? "collection", slug: null, rest };
 }
 

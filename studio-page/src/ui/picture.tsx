@@ -20,8 +20,8 @@ export function Picture(props: { url: string | null; tint: string | null; alt: s
     <span
       ref={element}
       class={`picture ${props.tint ? "tinted" : ""} ${props.dim ? "dim" : ""}`}
-      role="img"
-      aria-label={props.alt}
+      role={props.alt ? "img" : undefined}
+      aria-label={props.alt || undefined}
     />
   );
 }

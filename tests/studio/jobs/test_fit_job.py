@@ -37,6 +37,9 @@ class Told:
     def stage(self, *_):
         pass
 
+    def opens(self, *_):
+        pass
+
 
 def test_a_fit_that_was_cancelled_goes_on(tmp_path, monkeypatch):
     monkeypatch.setattr(unfinished, "Unfinished", partial(unfinished.Unfinished, least=0.0))

@@ -132,15 +132,20 @@ async def _render(session: Session, request: Request) -> Any:
         parameters = session.authored.values(shown, given.parameters)
     elif slug is None:
         raise requests.Wrong("a reference has a name")
-    _, payload = await session.bench.process.fetch(
-        slug,
-        "render",
-        parameters=parameters,
-        beyond=given.beyond,
-        azimuth=requests.number(query.get("azimuth"), 35.0, -3600.0, 3600.0),
-        elevation=requests.number(query.get("elevation"), 25.0, -90.0, 90.0),
-        size=int(requests.number(query.get("size"), 512, 16, 1024)),
-    )
+    try:
+        _, payload = await session.bench.process.fetch(
+            slug,
+            "render",
+            parameters=parameters,
+            beyond=given.beyond,
+            azimuth=requests.number(query.get("azimuth"), 35.0, -3600.0, 3600.0),
+            elevation=requests.number(query.get("elevation"), 25.0, -90.0, 90.0),
+            size=int(requests.number(query.get("size"), 512, 16, 1024)),
+        )
+    except Missing:
+        if slug is not None:
+            raise
+        return Response(status_code=204, headers=_NO_STORE)  # a procedure that builds nothing is told elsewhere
     return Response(payload, media_type="image/png", headers=_NO_STORE)
 
 
