@@ -33,3 +33,16 @@ def test_a_gallery_removes_what_killed_writers_left_long_ago(tmp_path):
     os.utime(leftover, (0, 0))
     Gallery(Listing({}, {}), tmp_path / "cache", Readers())
     assert not leftover.exists() and young.exists()
+
+
+def test_the_shape_of_a_file_that_was_written_anew_is_not_kept_as_that_of_the_new_one(tmp_path):
+    file = tmp_path / "references" / "cube.ply"
+    file.parent.mkdir()
+    file.write_bytes(encode(box(1).mesh(), "ply"))
+    gallery = Gallery(listing(Origin(str(file.parent))), tmp_path / "cache", Readers())
+    assert gallery["cube"].shape and (before := gallery.kept_shape("cube"))
+    file.write_bytes(encode(box((1, 2, 30)).mesh(), "ply"))
+    os.utime(file, (0, 0))
+    assert gallery["cube"].shape.extent.min() == 1.0 and gallery.kept_shape("cube") is None
+    anew = Gallery(gallery.listed, tmp_path / "cache", Readers())
+    assert anew["cube"].shape.extent.min() < 0.1 and anew.kept_shape("cube") not in (None, before)

@@ -78,6 +78,7 @@ class Gallery:
         if cache:  # once, not with every picture: the folder holds those of all projects
             remove_leftovers(cache / PICTURES)
         self._shelf: Shelf[Reference] = Shelf(_MEMORY, lambda reference: shape_bytes(reference.shape))
+        self._read_for: dict[str, Path | None] = {}  # where shapes are kept of files as they were when they were read
 
     @property
     def recorded(self) -> dict[str, Stance]:
@@ -102,6 +103,7 @@ class Gallery:
         known = self._shelf.get(slug)
         if known:
             return known
+        self._read_for[slug] = self._place(slug)
         read, stance = self.given(slug), self.stances.get(slug)
         if stance is not None and is_free(read):
             read = turned(read, stance) if isinstance(stance, Finding) else recalled(read, stance)
@@ -149,7 +151,14 @@ class Gallery:
         return Axes.of(reference.orientation, reference.axes_by)
 
     def kept_shape(self, slug: str) -> Path | None:
-        """Where the message of a large mesh is kept; None where nothing is, or where its axes are still a guess."""
+        """Where the message of a large mesh is kept.
+
+        None where nothing is, where its axes are still a guess, and where the file is another one than was read.
+        """
+        place = self._place(slug)
+        return place if place == self._read_for.get(slug) else None
+
+    def _place(self, slug: str) -> Path | None:
         stance = self.stances.get(slug)
         if self._cache is None or slug not in self.listed.sources or isinstance(stance, Finding):
             return None
