@@ -2,7 +2,7 @@
 
 A studio is started on the demo's tables; the author writes versions 1, 2 and 4 of the procedure, each is fitted, and a
 headless Chromium looks at every view. Another is started on their silhouettes. That takes some minutes; projects that
-are kept (in DIR) are fitted only once.
+are kept (in DIR) are fitted only once. Of each view there is a sheet as well: light and dark, in three sizes.
 """
 
 from __future__ import annotations
@@ -30,6 +30,8 @@ PICTURES = ROOT / "docs" / "pictures" / "studio"
 VERSIONS = ("v1", "v2", "v4")
 SETTINGS = ("--samples", "1500", "--epochs", "10", "--workers", "1")
 SIZE = {"width": 1280, "height": 800}
+SIZES = (SIZE, {"width": 1720, "height": 1000}, {"width": 390, "height": 844})  # a laptop, a large screen, a phone
+SHEETS, SHEET_SCALE, GAP = PICTURES / "sheets", 0.5, 12
 
 
 def collection(visit: Visit) -> None:
@@ -220,10 +222,27 @@ def take(started: Studio, browser: Any, name: str) -> None:
     arrive(visit)
     visit.page.wait_for_timeout(600)
     picture = Image.open(io.BytesIO(visit.page.screenshot())).convert("RGB")
+    SHEETS.mkdir(parents=True, exist_ok=True)
+    sheet(visit.page).save(SHEETS / f"{name}.webp", quality=80, method=6)
     visit.end()
-    PICTURES.mkdir(parents=True, exist_ok=True)
     small = picture.quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     small.save(PICTURES / f"{name}.png", optimize=True)
+
+
+def sheet(page: Any) -> Image.Image:
+    """The page as it is: a row for each theme, a column for each size."""
+    columns = [round(SHEET_SCALE * size["width"]) for size in SIZES]
+    height = round(SHEET_SCALE * max(size["height"] for size in SIZES))
+    whole = Image.new("RGB", (sum(columns) + GAP * (len(SIZES) - 1), 2 * height + GAP), "gray")
+    for row, scheme in enumerate(("light", "dark")):
+        page.emulate_media(color_scheme=scheme)
+        for column, size in enumerate(SIZES):
+            page.set_viewport_size(size)
+            page.wait_for_timeout(500)
+            one = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+            small = one.resize((columns[column], round(SHEET_SCALE * size["height"])), Image.Resampling.LANCZOS)
+            whole.paste(small, (sum(columns[:column]) + GAP * column, row * (height + GAP)))
+    return whole
 
 
 def main() -> None:
