@@ -94,7 +94,7 @@ def test_explain_needs_a_run(tmp_path):
 
 
 def test_a_fit_keeps_its_run_when_the_explanation_fails(project, monkeypatch):
-    def fail(*_):
+    def fail(*_, **__):
         raise KeyError("no such label")
 
     monkeypatch.setattr("shapewright.feedback.explanation.explain", fail)
