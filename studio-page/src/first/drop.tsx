@@ -80,8 +80,8 @@ export function DropZone() {
         </p>
       )}
       <p class="soft">
-        Meshes (OBJ, PLY, STL, GLB, STEP, …), points, or drawings (SVG, DXF, pictures). They are copied into{" "}
-        <code>references</code>.
+        Meshes (OBJ, PLY, STL, OFF, GLB, glTF, 3MF, DAE, FBX, USD, STEP, IGES), points, or drawings (SVG, DXF,
+        pictures). They are copied into <code>references</code>.
       </p>
       <input
         ref={field}

@@ -321,7 +321,9 @@ class TestReasons:
 
 def test_every_text_lists_the_formats_that_there_are():
     root = Path(__file__).resolve().parents[3]
-    assert f"Put meshes ({', '.join(MESH_FORMATS)})" in (root / "studio-page/src/collection/view.tsx").read_text()
+    assert f"Meshes ({', '.join(MESH_FORMATS)})" in " ".join(
+        (root / "studio-page/src/first/drop.tsx").read_text().split()
+    )
     assert f"{', '.join(MESH_FORMATS[:-1])} and {MESH_FORMATS[-1]}" in Collection.load.__doc__
     page = (root / "studio-page/src/frame/exporting.tsx").read_text()
     assert f"({json.dumps(FORMATS)} as ExportFormat[]).map" in page
