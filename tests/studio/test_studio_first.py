@@ -106,6 +106,7 @@ def test_files_are_dropped_in_any_view_and_go_over_no_other(empty: Studio, brows
     assert (home / "a.obj").read_text() == mesh()
     page.click(".refused >> text=Keep both")
     page.wait_for_selector(".refused:has-text('another a.obj')", state="detached")
+    empty.wait_for(lambda _: (home / "a-2.obj").exists())
     assert (home / "a-2.obj").read_text() == mesh(0.9) and not (home / "evil.py").exists()
     page.click(".refused >> text=Put away")
     page.wait_for_selector(".refused", state="detached")

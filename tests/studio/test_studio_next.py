@@ -225,6 +225,7 @@ def test_a_suggestion_is_accepted_part_by_part(mended: Studio, browser: Any) -> 
     page.click(".parts .button.primary")
     mended.wait_for(lambda _: "Range(0.3, 2.0)" in path.read_text())
     assert path.read_text() == "# mine\n" + BOTH
+    page.wait_for_selector("nav a[href='#loop'][aria-current]")  # it shows what was written
     visit.go("feedback")
     page.wait_for_selector(".parts .good, .suggestion .good:has-text('has all of it')")
     # Both are in the undo list.
