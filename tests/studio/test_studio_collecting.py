@@ -11,7 +11,7 @@ import pytest
 import trimesh
 
 from shapewright.references import Collection
-from studio_browser import Visit, chromium, missing
+from studio_browser import Visit, missing
 from studio_client import PROCEDURE, Studio, ready, studio
 
 pytestmark = [
@@ -47,12 +47,6 @@ def running(folder: Path) -> Iterator[Studio]:
             started.send("POST", "/api/fit", {"fresh": True}, 202)
             started.wait_for(lambda s, count=count: len(s["runs"]) == count and rested(s), 240)  # type: ignore[misc]
         started.wait_for(lambda s: bool(s["duplicates"]))
-        yield started
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as started:
         yield started
 
 

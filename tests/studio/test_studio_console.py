@@ -11,7 +11,7 @@ import pytest
 from boxes import CORNERS, TRIANGLES
 from shapewright.shapes import Mesh
 from shapewright.shapes.files import encode
-from studio_browser import Visit, chromium, missing
+from studio_browser import Visit, missing
 from studio_client import PROCEDURE, Studio, ready, studio
 
 pytestmark = [
@@ -37,12 +37,6 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
     (folder / "helpers.py").write_text("THICK = 0.08\n")
     with studio(folder, "--no-auto-fit") as started:
         started.wait_for(ready)
-        yield started
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as started:
         yield started
 
 

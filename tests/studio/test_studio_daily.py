@@ -14,7 +14,7 @@ from PIL import Image
 from shapewright.feedback.trials.cards import Example, card
 from shapewright.modelling.solids import box
 from shapewright.procedures import load_procedure
-from studio_browser import Visit, chromium, missing
+from studio_browser import Visit, missing
 from studio_client import Studio, ready, studio
 
 pytestmark = [
@@ -45,12 +45,6 @@ MANY += """    count: Annotated[int, Range(2, 9)] = 4,
     leg = post((wide, height, wide), at=(0.4, height / 2, 0.15)).label("legs")
     return top | leg.mirror("x", keep=True).mirror("z", keep=True)
 """
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as started:
-        yield started
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from accessibility import AXE, violations
 from boxes import CORNERS, TRIANGLES
 from shapewright.shapes import Mesh
 from shapewright.shapes.files import encode
-from studio_browser import Visit, chromium, missing
+from studio_browser import Visit, missing
 from studio_client import PROCEDURE, Studio, ready, studio
 
 pytestmark = [
@@ -41,12 +41,6 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
         started.wait_for(lambda s: s["runs"] and s["jobs"]["fit"]["state"] == "done", 300)
         started.send("POST", "/api/explain", {}, 202)
         started.wait_for(lambda s: s["explanation"], 300)
-        yield started
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as started:
         yield started
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 import trimesh
 
-from studio_browser import Visit, chromium, missing
+from studio_browser import Visit, missing
 from studio_client import Studio, ready, studio
 
 pytestmark = [
@@ -47,12 +47,6 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
     (folder / "procedure.py").write_text(TEXT)
     with studio(folder, "--no-auto-fit", "--workers", "1") as started:
         started.wait_for(ready)
-        yield started
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as started:
         yield started
 
 

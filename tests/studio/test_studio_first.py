@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 import trimesh
 
-from studio_browser import Visit, chromium, missing
+from studio_browser import Visit, missing
 from studio_client import PROCEDURE, Studio, ready, studio
 
 pytestmark = [
@@ -26,12 +26,6 @@ DROP = """([files, type]) => {
   for (const kind of type) document.querySelector("main").dispatchEvent(new DragEvent(kind, usual));
 }"""
 LOADED = "[...document.querySelectorAll('.standing-pair img')].filter(i => i.complete && i.naturalWidth === 512).length"
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as started:
-        yield started
 
 
 @pytest.fixture

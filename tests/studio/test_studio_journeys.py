@@ -16,7 +16,7 @@ import trimesh
 
 from shapewright.demo.meshes import write
 from shapewright.settings import Settings
-from studio_browser import Visit, chromium, missing
+from studio_browser import Visit, missing
 from studio_client import Studio, ready, studio
 
 pytestmark = [
@@ -48,12 +48,6 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def server(project: Path) -> Iterator[Studio]:
     with studio(project, *QUICK) as started:
-        yield started
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as started:
         yield started
 
 

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from shapewright.procedures import load_procedure
-from studio_browser import Visit, chromium, missing
+from studio_browser import Visit, missing
 from studio_client import PROCEDURE, Studio, ready, studio
 
 pytestmark = [
@@ -22,12 +22,6 @@ SLOW = PROCEDURE.replace("    top = box", "    import time\n\n    time.sleep(0.3
 WIDER = PROCEDURE.replace("Range(0.3, 1.2)", "Range(0.3, 2.0)")
 BOTH = WIDER.replace("(0.8, 0.04, 0.6)", "(0.9, 0.04, 0.65)")
 CHANGE = {"procedure": "table", "limits": [{"parameter": "height", "low": None, "high": "2.0", "steps": None}]}
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as started:
-        yield started
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from PIL import Image
 from boxes import CORNERS, TRIANGLES
 from shapewright.shapes import Mesh
 from shapewright.shapes.files import encode
-from studio_browser import Visit, chromium, missing
+from studio_browser import Visit, missing
 from studio_client import PROCEDURE, Studio, ready, studio
 
 pytestmark = [
@@ -33,12 +33,6 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
     (folder / "references" / "million.ply").write_bytes(encode(dense(500), "ply"))
     (folder / "procedure.py").write_text(PROCEDURE)
     with studio(folder, "--no-auto-fit") as started:
-        yield started
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as started:
         yield started
 
 

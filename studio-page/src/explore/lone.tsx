@@ -9,7 +9,7 @@ import { COLOURS } from "../inspector/pair/layout";
 import { failure, openAlone, outcome, redo, replica, reset, undo, values } from "../inspector/pair/session";
 import { copy } from "../state/actions";
 import { useKeys } from "../state/keys";
-import { go, route } from "../state/route";
+import { go } from "../state/route";
 import { dimension } from "../state/studio";
 import { theme } from "../state/theme";
 import { Button, Empty } from "../ui/controls";
@@ -145,6 +145,3 @@ function Solid({ index }: { index: number }) {
   if (!webgl.value) return <Picture url={shapes.value.get(index)?.picture ?? null} tint={null} alt="The shape" />;
   return <div class="space" ref={place} data-stage />;
 }
-
-/** Whether one shape is open. */
-export const isLone = () => route.value.view === "explore" && route.value.rest !== null;

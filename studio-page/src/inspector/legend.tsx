@@ -1,10 +1,12 @@
 /** What the colours on the stage mean. */
 
+import type { Signal } from "@preact/signals";
 import { Segments } from "../ui/controls";
 import { partColour } from "../viewer/paint";
 import { theme } from "../state/theme";
 import { colouring, original, replica, residuals } from "./pair/session";
 import { blend, COLOURS, layout, under } from "./pair/layout";
+import type { Side } from "../wire/messages";
 
 export function Legend() {
   const mesh = replica.value;
@@ -35,33 +37,27 @@ export function OverLegend() {
   const colours = COLOURS[theme.value];
   return (
     <p class="legend">
-      <label>
-        <i class="swatch" style={{ backgroundColor: colours.reference }} />
-        reference
-        <input
-          type="range"
-          aria-label="Opacity of the reference"
-          min={0}
-          max={1}
-          step={0.05}
-          value={under.value}
-          onInput={(event) => (under.value = event.currentTarget.valueAsNumber)}
-        />
-      </label>
-      <label>
-        <i class="swatch" style={{ backgroundColor: colours.over }} />
-        replica
-        <input
-          type="range"
-          aria-label="Opacity of the replica"
-          min={0}
-          max={1}
-          step={0.05}
-          value={blend.value}
-          onInput={(event) => (blend.value = event.currentTarget.valueAsNumber)}
-        />
-      </label>
+      <Opacity of="reference" colour={colours.reference} opacity={under} />
+      <Opacity of="replica" colour={colours.over} opacity={blend} />
     </p>
+  );
+}
+
+function Opacity({ of, colour, opacity }: { of: Side; colour: string; opacity: Signal<number> }) {
+  return (
+    <label>
+      <i class="swatch" style={{ backgroundColor: colour }} />
+      {of}
+      <input
+        type="range"
+        aria-label={`Opacity of the ${of}`}
+        min={0}
+        max={1}
+        step={0.05}
+        value={opacity.value}
+        onInput={(event) => (opacity.value = event.currentTarget.valueAsNumber)}
+      />
+    </label>
   );
 }
 
